@@ -1,0 +1,27 @@
+# One target per room: wilt_room(NAME SOURCES a.cpp ... ROOMS core mesh ... LIBRARIES fmt::fmt-header-only ...)
+# ROOMS are the rooms that its public headers include; LIBRARIES are private to its sources.
+add_library(wilt_options INTERFACE)
+target_compile_features(wilt_options INTERFACE cxx_std_20)
+# No contraction: the same bytes on every processor of one class.
+target_compile_options(wilt_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
+if(WILT_WERROR)
+  target_compile_options(wilt_options INTERFACE -Werror)
+endif()
+if(WILT_SANITIZE)
+  target_compile_options(wilt_options INTERFACE -fsanitize=${WILT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(wilt_options INTERFACE -fsanitize=${WILT_SANITIZE})
+endif()
+
+function(wilt_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
+  add_library(wilt_${name} STATIC ${ROOM_SOURCES})
+  add_library(wilt::${name} ALIAS wilt_${name})
+  set_target_properties(wilt_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(wilt_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  list(TRANSFORM ROOM_ROOMS PREPEND wilt::)
+  target_link_libraries(wilt_${name} PUBLIC Eigen3::Eigen ${ROOM_ROOMS}
+    PRIVATE $<BUILD_INTERFACE:wilt_options> ${ROOM_LIBRARIES})
+  set_property(GLOBAL APPEND PROPERTY WILT_ROOMS wilt_${name})
+endfunction()

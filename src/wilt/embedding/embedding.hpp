@@ -1,0 +1,36 @@
+// Multidimensional scaling: points in the plane whose distances match a given matrix.
+#pragma once
+
+#include <vector>
+
+#include "wilt/core/monitor.hpp"
+#include "wilt/core/types.hpp"
+
+namespace wilt {
+
+struct Embedding {
+  Points2 coordinates;          ///< #V x 2
+  double stress = 0.0;          ///< sum_{i<j} (|x_i - x_j| - D_ij)^2 / sum_{i<j} D_ij^2
+  std::vector<double> history;  ///< the stress after each iteration (SMACOF)
+};
+
+/// Classical scaling (Torgerson 1952): double centring, the two leading eigenvectors. D is #V x #V,
+/// symmetric, >= 0.
+Embedding classical_mds(const Eigen::MatrixXd& distances);
+
+struct SmacofOptions {
+  int max_iterations = 300;  ///< >= 1
+  double tolerance = 1e-5;   ///< relative change of stress to stop at, > 0
+};
+
+/// SMACOF (de Leeuw 1977): majorisation of the raw stress from a start (#V x 2). Stress never rises.
+Embedding smacof(const Eigen::MatrixXd& distances, const Points2& start, const SmacofOptions& options = {},
+                 const Monitor& monitor = {});
+
+/// Landmark scaling (de Silva and Tenenbaum 2004): SMACOF among the landmarks, then triangulation of the
+/// rest. `landmark_distances` is #L x #V, `landmarks` the #L column indices. Stress is over landmark-vertex
+/// pairs.
+Embedding landmark_mds(const Eigen::MatrixXd& landmark_distances, const std::vector<int>& landmarks,
+                       const SmacofOptions& options = {}, const Monitor& monitor = {});
+
+}  // namespace wilt

@@ -1,0 +1,54 @@
+// The veins of a leaf: tips on the margin, primary veins to them, secondary veins between.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "wilt/core/monitor.hpp"
+#include "wilt/geodesics/fast_geodesics.hpp"
+#include "wilt/geodesics/surface_path.hpp"
+#include "wilt/leaf/leaf.hpp"
+#include "wilt/leaf/species.hpp"
+#include "wilt/venation/margin.hpp"
+
+namespace wilt {
+
+struct Tip {
+  VertexId vertex;
+  double s = 0.0, d = 0.0, prominence = 0.0;  ///< of the margin profile
+};
+
+struct Vein {
+  int order = 1;     ///< 1: primary, 2: secondary
+  int tip = -1;      ///< primary: the index of its tip
+  int parent = -1;   ///< secondary: the index of the vein that it leaves
+  SurfacePath path;  ///< from the petiole (or the parent) outwards
+};
+
+struct VenationOptions {
+  PeakOptions peaks;
+  GeodesicMethod geodesics = GeodesicMethod::fast;  ///< of the distance matrix; veins are always exact
+  int full_embedding_up_to = 3000;                  ///< vertices; above, landmarks
+  int landmarks = 60;                               ///< >= 4
+  bool secondary = true;                            ///< whether to draw secondary veins
+};
+
+struct Venation {
+  MarginProfile margin;
+  std::vector<Tip> tips;    ///< in the order of s: r1, r2, ... of the paper
+  std::vector<Vein> veins;  ///< primary veins first, in the order of their tips
+  double embedding_stress = 0.0;
+  Points2 flat;                      ///< #V x 2, the embedding
+  Eigen::VectorXd primary_distance;  ///< #V, gd_i: metres to the nearest primary vein
+  Eigen::VectorXd vein_distance;     ///< #V, metres to the nearest primary or secondary vein
+  Eigen::MatrixXd tip_distance;      ///< #tips x #V, exact, metres
+  struct Timings {
+    double geodesics = 0.0, embedding = 0.0, venation = 0.0;
+  } timings;  ///< seconds
+};
+
+/// From geometry alone: the leaf's name is not looked at, but for the secondary veins' rule, which is given.
+Venation find_venation(const Leaf& leaf, const SecondaryVeinRule& rule, const VenationOptions& options = {},
+                       const Monitor& monitor = {});
+
+}  // namespace wilt
