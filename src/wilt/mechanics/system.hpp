@@ -1,0 +1,77 @@
+// A set of masses with the energies and forces that act on them.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "wilt/core/types.hpp"
+#include "wilt/mechanics/term.hpp"
+
+namespace wilt {
+
+/// Where the vertices are and how fast they move; all #V x 3, working units.
+struct MotionState {
+  Points3 positions;
+  Points3 velocities;     ///< empty: at rest
+  Points3 accelerations;  ///< of the last step, where the next one starts its iteration; empty: zero
+};
+
+/// Masses, pinned vertices and named terms. Terms are owned here and changed between steps through the
+/// references that add_energy and add_force return; these stay valid for the system's life, also when it is
+/// moved.
+class System {
+ public:
+  /// `masses` #V, > 0; `pinned` #V flags, vertices that keep the positions they have. Throws
+  /// Error{configuration}.
+  System(const Eigen::VectorXd& masses, std::vector<char> pinned);
+
+  template <class E>
+  E& add_energy(std::string name, std::unique_ptr<E> energy) {
+    E& reference = *energy;
+    energies_.emplace_back(std::move(name), std::move(energy));
+    return reference;
+  }
+  template <class F>
+  F& add_force(std::string name, std::unique_ptr<F> force) {
+    F& reference = *force;
+    forces_.emplace_back(std::move(name), std::move(force));
+    return reference;
+  }
+
+  int vertex_count() const { return static_cast<int>(masses_.size()); }
+  const Eigen::VectorXd& masses() const { return masses_; }
+  void set_masses(const Eigen::VectorXd& masses);
+  const std::vector<char>& pinned() const { return pinned_; }
+
+  /// The pattern that all terms together need; binds every term to it.
+  std::shared_ptr<const BlockPattern> make_pattern();
+
+  /// The sum of all forces, #V x 3 (pinned vertices included: there it is minus the reaction).
+  void total_force(const Points3& x, const Points3& v, Points3& force) const;
+
+  /// The force of the term of this name. Throws Error{configuration} when there is none.
+  Points3 force_of(const std::string& name, const Points3& x, const Points3& v) const;
+
+  /// The largest norm over the free vertices of any single term's force: the scale to compare a residual
+  /// with.
+  double force_scale(const Points3& x, const Points3& v) const;
+
+  /// Each energy's name and value.
+  std::vector<std::pair<std::string, double>> energies(const Points3& x) const;
+  double kinetic_energy(const Points3& v) const;
+
+  /// matrix = M - position_scale dF/dx - velocity_scale dF/dv, finished.
+  void assemble(const Points3& x, const Points3& v, double position_scale, double velocity_scale,
+                Curvature curvature, BlockMatrix& matrix) const;
+
+ private:
+  Eigen::VectorXd masses_;
+  std::vector<char> pinned_;
+  std::vector<std::pair<std::string, std::unique_ptr<Energy>>> energies_;
+  std::vector<std::pair<std::string, std::unique_ptr<Force>>> forces_;
+};
+
+}  // namespace wilt
