@@ -1,0 +1,34 @@
+// LEAF on the command line: a species or a file, and the options that go with it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "wilt/core/monitor.hpp"
+#include "wilt/leaf/leaf.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace wilt::cli {
+
+struct LeafRequest {
+  std::string leaf;             ///< a species' name or a file
+  std::optional<int> vertices;  ///< absent: 2000, or a mesh file's own
+  std::uint64_t seed = 1;
+  std::string petiole;  ///< "X,Y" or empty
+  int nth = 1;
+};
+
+/// Adds LEAF, --vertices, --seed, --petiole and --leaf to a verb.
+void add_leaf_options(CLI::App& verb, LeafRequest& request);
+
+/// Throws Error{input} for what is neither a species nor a file that can be read.
+Leaf load_leaf(const LeafRequest& request, const Monitor& monitor);
+
+/// Whether LEAF names one of the built-in species.
+bool is_species(const std::string& leaf);
+
+}  // namespace wilt::cli

@@ -1,0 +1,55 @@
+// What the user sees: messages and a progress bar on stderr, data on stdout.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+
+#include "wilt/core/monitor.hpp"
+
+namespace wilt::cli {
+
+enum class Colour { automatic, always, never };
+
+/// Options that every verb takes.
+struct GlobalOptions {
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+  Colour colour = Colour::automatic;
+  int threads = 0;  ///< 0: all
+};
+
+/// Writes to stderr; a progress bar only when it is a terminal.
+class Terminal {
+ public:
+  explicit Terminal(const GlobalOptions& options);
+  ~Terminal();
+
+  void say(std::string_view message);     ///< unless quiet
+  void detail(std::string_view message);  ///< when verbose
+  void warn(std::string_view message);    ///< always
+  void error(std::string_view message);   ///< always
+
+  /// Progress goes to the bar, notes to `say`, and Ctrl-C is what asks to stop.
+  Monitor monitor();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void clear_bar();
+  void draw_bar(std::string_view stage, double fraction);
+  std::string paint(std::string_view text, const char* code) const;
+
+  bool quiet_, verbose_, terminal_, coloured_;
+  bool bar_shown_ = false;
+  std::string stage_;
+  Clock::time_point stage_start_, last_drawn_;
+};
+
+/// From now on Ctrl-C (SIGINT) and SIGTERM ask the running computation to stop instead of killing the
+/// program.
+void catch_interrupts();
+bool interrupted();
+
+}  // namespace wilt::cli

@@ -1,0 +1,85 @@
+// wilt leaf: the leaf as a mesh.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "load_leaf.hpp"
+#include "run.hpp"
+#include "verbs.hpp"
+#include "wilt/core/error.hpp"
+#include "wilt/leaf/species.hpp"
+#include "wilt/mesh/geometry.hpp"
+#include "wilt/output/gltf.hpp"
+#include "wilt/output/obj.hpp"
+#include "wilt/simulation/colour.hpp"
+
+namespace wilt::cli {
+namespace {
+
+struct Request {
+  LeafRequest leaf;
+  std::string output;
+};
+
+void write_leaf(const std::string& path, const Leaf& leaf) {
+  const std::vector<Frame> frames = rest_frames(leaf);
+  if (std::filesystem::path(path).extension() == ".obj") return write_obj(path, leaf, frames.front());
+  const LeafColours& colours = species(leaf.species).colours;
+  GlbScene scene{leaf, frames};
+  scene.colours.push_back(Points3::Ones(leaf.positions.rows(), 3) * linear_rgb(colours.fresh).asDiagonal());
+  scene.stalk_colours.push_back(linear_rgb(colours.stalk));
+  write_glb(path, scene);
+}
+
+void run(const Request& request, const GlobalOptions& options) {
+  const std::string extension = std::filesystem::path(request.output).extension().string();
+  if (!request.output.empty() && extension != ".glb" && extension != ".obj")
+    throw Error(ErrorCode::configuration,
+                fmt::format("cannot write '{}': a leaf is .glb or .obj", request.output));
+  if (request.output.empty() && !options.json)
+    throw Error(ErrorCode::configuration, "nothing would be written; add -o leaf.glb");
+  check_writable(request.output);
+  Terminal terminal(options);
+  catch_interrupts();
+  const Leaf leaf = load_leaf(request.leaf, terminal.monitor());
+  for (const std::string& note : leaf.notes) terminal.say(note);
+  const double angle = smallest_angle(leaf.mesh, leaf.positions) * 180.0 / std::numbers::pi;
+  terminal.say(fmt::format("{}: {} vertices, {} faces, {:.0f} mm, smallest angle {:.0f} degrees", leaf.name,
+                           leaf.mesh.num_vertices(), leaf.mesh.num_faces(), 1e3 * leaf_length(leaf), angle));
+  if (!request.output.empty()) {
+    write_leaf(request.output, leaf);
+    terminal.say("wrote " + request.output);
+  }
+  if (!options.json) return;
+  const nlohmann::ordered_json json = {{"name", leaf.name},
+                                       {"species", leaf.species},
+                                       {"vertices", leaf.mesh.num_vertices()},
+                                       {"faces", leaf.mesh.num_faces()},
+                                       {"length_m", leaf_length(leaf)},
+                                       {"area_m2", surface_area(leaf.mesh, leaf.positions)},
+                                       {"smallest_angle_deg", angle},
+                                       {"petiole_vertex", static_cast<int>(leaf.petiole)},
+                                       {"notes", leaf.notes}};
+  fmt::print("{}\n", json.dump(2));
+}
+
+}  // namespace
+
+void add_leaf(CLI::App& app, const GlobalOptions& options) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* verb = app.add_subcommand("leaf",
+                                      "The leaf as a mesh\n\n"
+                                      "Examples:\n"
+                                      "  wilt leaf grape -o grape.glb --vertices 5000 --seed 7\n"
+                                      "  wilt leaf drawing.svg -o leaf.obj\n"
+                                      "  wilt leaf scan.obj -o even.glb --vertices 3000     remeshed\n");
+  add_leaf_options(*verb, request->leaf);
+  verb->add_option("-o,--output", request->output, ".glb or .obj")->type_name("FILE");
+  verb->callback([request, &options] { run(*request, options); });
+}
+
+}  // namespace wilt::cli

@@ -1,0 +1,167 @@
+// wilt simulate: a leaf in, a withered leaf out.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <memory>
+#include <numbers>
+
+#include "run.hpp"
+#include "verbs.hpp"
+#include "wilt/core/error.hpp"
+#include "wilt/core/nearest.hpp"
+#include "wilt/core/parallel.hpp"
+#include "wilt/output/file.hpp"
+
+namespace wilt::cli {
+namespace {
+
+struct Request {
+  LeafRequest leaf;
+  std::vector<std::string> outputs, assignments;
+  std::string model, config_file, report, forces;
+  std::optional<std::int64_t> iterations, frames;
+  int threads = 0;
+  bool print_config = false;
+};
+
+// Defaults of the species, then the file, then the options, then --set: the later wins.
+Config resolve_config(Request& request, bool seed_given) {
+  const std::string file = request.config_file.empty() ? "" : read_file(request.config_file);
+  std::string preset = is_species(request.leaf.leaf) ? request.leaf.leaf : "generic";
+  if (const std::string named = species_in_toml(file, request.config_file); !named.empty()) preset = named;
+  for (const std::string& assignment : request.assignments) {
+    if (assignment.rfind("species=", 0) == 0) preset = assignment.substr(8);
+  }
+  Config config = default_config(species("generic"));
+  set(config, "species", preset);  // refuses an unknown one as a setting
+  config = default_config(species(preset));
+  apply_toml(config, file, request.config_file);
+  if (!request.model.empty()) set(config, "model", request.model);
+  if (request.leaf.vertices) config.vertices = *request.leaf.vertices;
+  if (seed_given) config.seed = static_cast<std::int64_t>(request.leaf.seed);
+  if (request.iterations) set(config, "iterations", std::to_string(*request.iterations));
+  if (request.frames) set(config, "frames", std::to_string(*request.frames));
+  for (const std::string& assignment : request.assignments) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos)
+      throw Error(ErrorCode::configuration, fmt::format("--set takes key=value, not '{}'", assignment));
+    set(config, assignment.substr(0, equals), assignment.substr(equals + 1));
+  }
+  request.leaf.seed = static_cast<std::uint64_t>(config.seed);
+  if (config.vertices > 0) request.leaf.vertices = static_cast<int>(config.vertices);
+  return config;
+}
+
+void summarise(const WitheredLeaf& withered, Terminal& terminal) {
+  const FrameMetrics& m = withered.result.metrics.back();
+  double halved = 0;
+  for (const StepRow& step : withered.result.steps) halved += step.dt < withered.config.dt ? 1 : 0;
+  terminal.say(
+      fmt::format("after {} iterations: wrinkle {:.4f} of the length, curl {:.0f} degrees, area {:.0f} %, "
+                  "largest strain {:.0f} %, self-intersections {}",
+                  m.iteration, m.wrinkle, m.curl * 180.0 / std::numbers::pi, 100.0 * m.area_ratio,
+                  100.0 * m.max_strain, m.self_intersections));
+  if (halved > 0) terminal.detail(fmt::format("{} steps were halved", halved));
+  const Timings& t = withered.timings;
+  terminal.detail(
+      fmt::format("seconds: leaf {:.2f}, geodesics {:.2f}, embedding {:.2f}, venation {:.2f}, simulation "
+                  "{:.2f}, output {:.2f}",
+                  t.leaf, t.geodesics, t.embedding, t.venation, t.simulation, t.output));
+}
+
+void check_outputs(const Request& request) {
+  for (const std::string& path : request.outputs) {
+    const std::string extension = std::filesystem::path(path).extension().string();
+    if (extension != ".glb" && extension != ".obj")
+      throw Error(
+          ErrorCode::configuration,
+          fmt::format("cannot write '{}': results are .glb (all frames) or .obj (the last frame)", path));
+    check_writable(path);
+  }
+  for (const std::string& path : {request.report, request.forces}) {
+    if (!path.empty()) check_writable(path);
+  }
+}
+
+void write_all(const Request& request, WitheredLeaf& withered, Terminal& terminal) {
+  const auto start = std::chrono::steady_clock::now();
+  for (const std::string& path : request.outputs) {
+    write_result(path, withered);
+    terminal.say("wrote " + path);
+  }
+  if (!request.forces.empty()) {
+    write_file(request.forces, forces_csv(withered.result));
+    terminal.say("wrote " + request.forces);
+  }
+  withered.timings.output = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!request.report.empty()) {
+    write_file(request.report, report_of(withered));
+    terminal.say("wrote " + request.report);
+  }
+}
+
+void run(Request& request, bool seed_given, const GlobalOptions& options) {
+  const Config config = resolve_config(request, seed_given);
+  if (request.print_config) {
+    fmt::print("{}", options.json ? to_json(config) + "\n" : to_toml(config, true));
+    return;
+  }
+  if (request.leaf.leaf.empty())
+    throw Error(ErrorCode::configuration, "which leaf? see `wilt simulate --help`");
+  if (request.outputs.empty() && request.report.empty() && request.forces.empty() && !options.json)
+    throw Error(ErrorCode::configuration,
+                fmt::format("nothing would be written; add -o {}.glb",
+                            std::filesystem::path(request.leaf.leaf).stem().string()));
+  check_outputs(request);
+  const ThreadLimit limit(request.threads);
+  Terminal terminal(options);
+  catch_interrupts();
+  WitheredLeaf withered = wither(request.leaf, config, terminal);
+  write_all(request, withered, terminal);
+  summarise(withered, terminal);
+  if (options.json) fmt::print("{}\n", report_of(withered));
+  if (withered.result.completed) return;
+  const std::string message = withered.result.stop_reason + "; what was computed until then was written";
+  throw Error(withered.result.interrupted ? ErrorCode::interrupted : ErrorCode::simulation, message);
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, const GlobalOptions& options) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* verb = app.add_subcommand(
+      "simulate",
+      "Withers a leaf and writes it\n\n"
+      "Examples:\n"
+      "  wilt simulate maple -o maple.glb\n"
+      "  wilt simulate drawing.svg -o mine.glb -o mine.obj --report report.json\n"
+      "  wilt simulate grape -o dry.glb --set water.humidity=0.2 --set water.temperature_c=35\n"
+      "  wilt simulate ivy -o ivy.glb --model paper --forces forces.csv\n"
+      "  wilt simulate maple --print-config > run.toml    then edit it, and give it back:\n"
+      "  wilt simulate maple -o maple.glb --config run.toml\n");
+  add_leaf_options(*verb, request->leaf);
+  verb->get_option("LEAF")->required(false);
+  const CLI::Option* seed = verb->get_option("--seed");
+  verb->add_option("-o,--output", request->outputs,
+                   "Result: .glb (all frames), .obj (the last frame); repeatable")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  verb->add_option("--iterations", request->iterations, "Time steps (100)")->type_name("N");
+  verb->add_option("--frames", request->frames, "Frames in the clip (26)")->type_name("N");
+  verb->add_option("--model", request->model, "cell (default) or paper")->type_name("NAME");
+  verb->add_option("--config", request->config_file, "Settings from a TOML file")->type_name("FILE");
+  verb->add_option("--set", request->assignments, "One setting; repeatable, wins over --config")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  verb->add_flag("--print-config", request->print_config,
+                 "List the settings with unit, default and range, and stop");
+  verb->add_option("--report", request->report, "Steps, metrics, timings as JSON")->type_name("FILE");
+  verb->add_option("--forces", request->forces, "Forces by region and iteration as CSV")->type_name("FILE");
+  verb->add_option("--threads", request->threads, "Threads at most (all); results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024));
+  verb->callback([request, seed, &options] { run(*request, seed->count() > 0, options); });
+}
+
+}  // namespace wilt::cli

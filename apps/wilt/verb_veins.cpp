@@ -1,0 +1,72 @@
+// wilt veins: tips, primary and secondary veins.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "load_leaf.hpp"
+#include "run.hpp"
+#include "verbs.hpp"
+#include "wilt/core/error.hpp"
+#include "wilt/output/file.hpp"
+#include "wilt/output/veins_files.hpp"
+
+namespace wilt::cli {
+namespace {
+
+struct Request {
+  LeafRequest leaf;
+  std::vector<std::string> outputs;
+};
+
+using Writer = std::string (*)(const Leaf&, const Venation&);
+
+Writer writer_for(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".json")
+    return [](const Leaf& leaf, const Venation& veins) { return veins_json(leaf, veins); };
+  if (extension == ".svg") return veins_svg;
+  if (extension == ".obj") return veins_obj;
+  throw Error(ErrorCode::configuration,
+              fmt::format("cannot write '{}': veins are .json, .svg or .obj", path));
+}
+
+void run(const Request& request, const GlobalOptions& options) {
+  if (request.outputs.empty() && !options.json)
+    throw Error(ErrorCode::configuration, "nothing would be written; add -o veins.svg");
+  for (const std::string& path : request.outputs) {
+    writer_for(path);
+    check_writable(path);
+  }
+  Terminal terminal(options);
+  catch_interrupts();
+  const Monitor monitor = terminal.monitor();
+  const Leaf leaf = load_leaf(request.leaf, monitor);
+  for (const std::string& note : leaf.notes) terminal.say(note);
+  const Venation venation = find_venation(leaf, species(leaf.species).secondary, {}, monitor);
+  terminal.say(fmt::format("{}: {} tips, {} veins", leaf.name, venation.tips.size(), venation.veins.size()));
+  for (const std::string& path : request.outputs) {
+    write_file(path, writer_for(path)(leaf, venation));
+    terminal.say("wrote " + path);
+  }
+  if (options.json) fmt::print("{}\n", veins_json(leaf, venation));
+}
+
+}  // namespace
+
+void add_veins(CLI::App& app, const GlobalOptions& options) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* verb = app.add_subcommand("veins",
+                                      "Vein tips, primary and secondary veins\n\n"
+                                      "Examples:\n"
+                                      "  wilt veins maple -o veins.svg\n"
+                                      "  wilt veins drawing.svg -o veins.json -o veins.obj\n");
+  add_leaf_options(*verb, request->leaf);
+  verb->add_option("-o,--output", request->outputs, ".json, .svg or .obj; repeatable")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  verb->callback([request, &options] { run(*request, options); });
+}
+
+}  // namespace wilt::cli

@@ -1,0 +1,112 @@
+// Every setting of a simulation, in one place: key, unit, default, range.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "wilt/leaf/species.hpp"
+#include "wilt/venation/venation.hpp"
+
+namespace wilt {
+
+/// The resolved configuration of a run. Working units: the leaf's length is 8, masses and forces as in the
+/// paper.
+///
+/// The meaning, unit and range of each member stand in the table of settings in config.cpp, which `wilt
+/// simulate --print-config` prints.
+struct Config {
+  std::string model = "cell";
+  std::string species = "generic";
+  std::int64_t vertices = 2000;
+  std::int64_t seed = 1;
+  std::int64_t iterations = 100;
+  std::int64_t frames = 26;
+  double dt = 0.1;
+  std::string pin = "ring";
+
+  struct {
+    double seconds = 4.0, hours = 48.0;
+  } clip;
+  struct {
+    std::string peaks = "prominence", geodesics = "fast";
+    std::int64_t window_vertices = 8, full_embedding_up_to = 3000, landmarks = 60;
+    double window_length = 0.06, min_prominence = 0.02;
+    bool secondary = true;
+  } veins;
+  struct {
+    double min = 0.8, max = 1.5, tau = 1.0, water_fraction = 0.8;
+  } mass;
+  struct {
+    double temperature_c = 20.0, humidity = 0.5, loss_rate = 0.02, diffusion = 0.1, dryness_scale = 0.3;
+  } water;
+  struct {
+    double cell_constant = 2e-4, poisson_ratio = 0.499;
+  } pressure;
+  struct {
+    double stiffness = 4.0, damping = 0.1, vein_factor = 5.0;
+  } springs;
+  struct {
+    double coefficient = 1.0;
+  } swelling;
+  struct {
+    std::string variant = "a";
+    double range = 1.0, growth = 0.3, scale = 1.0;
+  } external;
+  struct {
+    double stiffness = 1e-3, wrinkle_length = 0.2, turgor_loss = 0.5;
+  } bending;
+  struct {
+    double amount = 1.0, vein_gap = 0.5, margin = 0.5, noise = 0.3;
+  } shrinkage;
+  struct {
+    double threshold = 0.2, stiffness = 40.0;
+  } strain_limit;
+  struct {
+    double strength = 0.004, petiole_stiffness = 1.0, petiole_turgor_loss = 0.9;
+  } gravity;
+  struct {
+    std::int64_t vertices = 120;
+  } reference;
+  struct {
+    double tolerance = 1e-8;
+    std::int64_t max_newton = 30, max_halvings = 8;
+  } solver;
+};
+
+/// The model's defaults with a species' Table 1 and calibrations.
+Config default_config(const Species& species);
+
+/// One row of the table of settings.
+struct Setting {
+  using Field = std::variant<double*, std::int64_t*, bool*, std::string*>;
+  std::string key;   ///< dotted name: "water.temperature_c"
+  std::string unit;  ///< "" when it is a pure number
+  std::string help;
+  double min = 0.0, max = 0.0;     ///< numbers: the allowed range, inclusive
+  std::vector<std::string> words;  ///< words: what is allowed
+  Field (*field)(Config&);
+};
+const std::vector<Setting>& settings();
+
+/// Sets one key from text, as `--set key=value` gives it. Throws Error{configuration}: an unknown key with
+/// the nearest one, a value of the wrong kind or out of range with what is allowed.
+void set(Config& config, std::string_view key, std::string_view value);
+
+/// Applies a TOML document; `source` names it in messages. Same errors as `set`.
+void apply_toml(Config& config, std::string_view toml, std::string_view source);
+
+/// The value of a document's `species` key, or "" (read first: it decides the other defaults).
+std::string species_in_toml(std::string_view toml, std::string_view source);
+
+/// As TOML that apply_toml takes back, with unit and range in comments when `commented`.
+std::string to_toml(const Config& config, bool commented);
+
+/// As a flat JSON object {"key": value, ...} in the order of the table.
+std::string to_json(const Config& config);
+
+VenationOptions venation_options(const Config& config);
+
+}  // namespace wilt

@@ -1,0 +1,38 @@
+// The water of a leaf's cells over time: mass, loss to the air, permeation, pressure.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "wilt/core/types.hpp"
+#include "wilt/simulation/config.hpp"
+#include "wilt/water/permeation.hpp"
+#include "wilt/water/pressure.hpp"
+
+namespace wilt {
+
+/// As printed, or in the forms that conserve water and converge with the step (docs/method.md, section 5).
+enum class WaterForm { printed, conservative };
+
+class LeafWater {
+ public:
+  /// `mass` #V, m at the start; `loss` per cell and time unit; `scale` is what the masses were scaled by.
+  LeafWater(const Config& config, WaterForm form, const Eigen::VectorXd& mass, double loss, double scale,
+            const Edges& edges, const Eigen::VectorXd& rest_lengths);
+
+  void advance(double dt);
+
+  const Eigen::VectorXd& water() const { return water_; }       ///< #V, w
+  const Eigen::VectorXd& dry_mass() const { return dry_; }      ///< #V, b
+  Eigen::VectorXd mass() const { return water_ + dry_; }        ///< #V, m
+  Eigen::VectorXd pressure_drop() const { return -pressure_; }  ///< #V, dp = p_out - p
+  Eigen::VectorXd dryness() const;                              ///< #V, 0 to 1
+
+ private:
+  WaterForm form_;
+  PressureOptions pressure_options_;
+  double dryness_scale_;
+  Permeation permeation_;
+  Eigen::VectorXd dry_, water_, first_water_, loss_, pressure_;  // pressure is p - p_out
+};
+
+}  // namespace wilt

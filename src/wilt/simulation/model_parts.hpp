@@ -1,0 +1,25 @@
+// What both models are put together from.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "wilt/simulation/deformation_model.hpp"
+#include "wilt/simulation/external_force.hpp"
+
+namespace wilt {
+
+/// Rest length of each edge of the mesh, #E, in the unit of `rest`.
+Eigen::VectorXd rest_lengths(const SurfaceMesh& mesh, const Points3& rest);
+
+/// The petiole and its one-ring as flags, #V; none when `config.pin` is "free".
+std::vector<char> pinned_vertices(const ModelInput& input);
+
+/// The forces at the tips, in working units, times `factor`.
+ExternalForce make_external_force(const ModelInput& input, double factor);
+
+/// For every vertex the distance (metres) of the farthest vertex that has the same nearest vein cell: gd_max
+/// as printed. Nearest along edges; vein cells are vertices within half a mean edge of a primary vein.
+Eigen::VectorXd farthest_of_vein_cell(const Leaf& leaf, const Venation& venation);
+
+}  // namespace wilt
