@@ -15,7 +15,9 @@ struct Embedding {
 };
 
 /// Classical scaling (Torgerson 1952): double centring, the two leading eigenvectors. D is #V x #V,
-/// symmetric, >= 0.
+/// symmetric, >= 0. Eigenvectors by subspace iteration from a fixed start; the largest entry of each is
+/// positive, so the result is deterministic. Throws Error{input} for anything that is no distance matrix of 3
+/// points or more. O(#V^2) per product with a vector.
 Embedding classical_mds(const Eigen::MatrixXd& distances);
 
 struct SmacofOptions {
@@ -23,13 +25,16 @@ struct SmacofOptions {
   double tolerance = 1e-5;   ///< relative change of stress to stop at, > 0
 };
 
-/// SMACOF (de Leeuw 1977): majorisation of the raw stress from a start (#V x 2). Stress never rises.
+/// SMACOF (de Leeuw 1977): majorisation of the raw stress from a start (#V x 2). Stress never rises. In
+/// parallel; the same bytes on any number of threads. O(#V^2) per iteration. Throws Error{input} as
+/// classical_mds, Error{configuration} for options out of range.
 Embedding smacof(const Eigen::MatrixXd& distances, const Points2& start, const SmacofOptions& options = {},
                  const Monitor& monitor = {});
 
 /// Landmark scaling (de Silva and Tenenbaum 2004): SMACOF among the landmarks, then triangulation of the
-/// rest. `landmark_distances` is #L x #V, `landmarks` the #L column indices. Stress is over landmark-vertex
-/// pairs.
+/// rest, each refined by majorising its own stress to the landmarks. `landmark_distances` is #L x #V (#L >=
+/// 3), `landmarks` the #L column indices. Stress is over landmark-vertex pairs. Deterministic. O(#L #V) per
+/// step.
 Embedding landmark_mds(const Eigen::MatrixXd& landmark_distances, const std::vector<int>& landmarks,
                        const SmacofOptions& options = {}, const Monitor& monitor = {});
 

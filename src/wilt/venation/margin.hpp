@@ -17,7 +17,8 @@ struct MarginProfile {
   double perimeter = 0.0;          ///< the length of the whole loop
 };
 
-/// `margin` in the order of SurfaceMesh::boundary_loops (clockwise), `flat` #V x 2.
+/// `margin` in the order of SurfaceMesh::boundary_loops (clockwise), `flat` #V x 2, `petiole` on the margin
+/// or next to it. O(#M).
 MarginProfile expand_margin(const std::vector<VertexId>& margin, const Points2& flat, VertexId petiole);
 
 enum class PeakRule { prominence, window };
@@ -36,7 +37,8 @@ struct Peak {
   double prominence = 0.0;  ///< topographic, on the circular signal, in the unit of d
 };
 
-/// The peaks of d(s) in the order of s, without the petiole. O(#M log #M).
+/// The peaks of d(s) in the order of s, without the petiole. Of equal heights within a window the first
+/// counts. O(#M) times the vertices in a window, and O(#M) per peak.
 std::vector<Peak> find_peaks(const MarginProfile& profile, const PeakOptions& options = {});
 
 }  // namespace wilt

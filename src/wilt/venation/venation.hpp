@@ -31,6 +31,7 @@ struct VenationOptions {
   int full_embedding_up_to = 3000;                  ///< vertices; above, landmarks
   int landmarks = 60;                               ///< >= 4
   bool secondary = true;                            ///< whether to draw secondary veins
+  void validate() const;                            ///< throws Error{configuration}
 };
 
 struct Venation {
@@ -38,7 +39,7 @@ struct Venation {
   std::vector<Tip> tips;    ///< in the order of s: r1, r2, ... of the paper
   std::vector<Vein> veins;  ///< primary veins first, in the order of their tips
   double embedding_stress = 0.0;
-  Points2 flat;                      ///< #V x 2, the embedding
+  Points2 flat;  ///< #V x 2, petiole at the origin, centroid on +y, faces counter-clockwise
   Eigen::VectorXd primary_distance;  ///< #V, gd_i: metres to the nearest primary vein
   Eigen::VectorXd vein_distance;     ///< #V, metres to the nearest primary or secondary vein
   Eigen::MatrixXd tip_distance;      ///< #tips x #V, exact, metres
@@ -47,7 +48,10 @@ struct Venation {
   } timings;  ///< seconds
 };
 
-/// From geometry alone: the leaf's name is not looked at, but for the secondary veins' rule, which is given.
+/// From geometry alone: the leaf's name is not looked at; the secondary veins' rule is given. Invariant to
+/// rigid motion, scale and relabelling (to round-off). Deterministic on any number of threads. O(#V^2 log #V)
+/// with all pairs, O(#landmarks #V log #V) above. Throws Error{input} when no tip is found,
+/// Error{configuration} for options or a rule out of range.
 Venation find_venation(const Leaf& leaf, const SecondaryVeinRule& rule, const VenationOptions& options = {},
                        const Monitor& monitor = {});
 
