@@ -41,7 +41,7 @@ std::uint64_t mix_hash(std::uint64_t hash, std::uint64_t value) {
   return z ^ (z >> 31);
 }
 
-Vec2 Sampler::next2() {
+Vec2 Sampler::next() {
   const std::uint64_t h = mix_hash(hash_, 2 * dimension_), g = mix_hash(hash_, 2 * dimension_ + 1);
   ++dimension_;
   const std::uint32_t i = nested_permutation(index_, std::uint32_t(h)) & mask_;
