@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <system_error>
+
+#include "wilt/core/error.hpp"
+#include "wilt/render/image.hpp"
+
+#define STBI_WRITE_NO_STDIO
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#include <stb/stb_image_write.h>
+#pragma GCC diagnostic pop
+
+namespace wilt {
+
+std::vector<std::uint8_t> encode_png(const Image& image) {
+  if (image.width < 1 || image.height < 1 ||
+      image.rgb.size() != 3 * std::size_t(image.width) * image.height) {
+    throw Error(ErrorCode::input,
+                fmt::format("picture: {} x {} pixels with {} bytes; 3 for each pixel are needed", image.width,
+                            image.height, image.rgb.size()));
+  }
+  std::vector<std::uint8_t> bytes;
+  const auto append = [](void* context, void* data, int size) {
+    const auto* begin = static_cast<const std::uint8_t*>(data);
+    auto& out = *static_cast<std::vector<std::uint8_t>*>(context);
+    out.insert(out.end(), begin, begin + size);
+  };
+  if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.rgb.data(),
+                              3 * image.width))
+    throw Error(ErrorCode::output, "picture: PNG could not be encoded (out of memory?)");
+  return bytes;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image) {
+  const std::vector<std::uint8_t> bytes = encode_png(image);
+  const std::filesystem::path part = path.string() + ".part";
+  std::ofstream file(part, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  std::error_code error;
+  if (file) std::filesystem::rename(part, path, error);
+  if (!file || error) {
+    std::filesystem::remove(part, error);
+    throw Error(
+        ErrorCode::output,
+        fmt::format("{}: cannot be written; check that its folder exists and has room", path.string()));
+  }
+}
+
+}  // namespace wilt

@@ -1,0 +1,93 @@
+#include "wilt/render/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "wilt/core/error.hpp"
+
+namespace wilt {
+namespace {
+
+void check_finish(const Finish& finish, const std::string& name) {
+  const auto require = [&](bool ok, const char* key, double value, const char* allowed) {
+    if (!ok)
+      throw Error(ErrorCode::input, fmt::format("{}: {} is {}; allowed: {}", name, key, value, allowed));
+  };
+  const auto share = [](double v) { return v >= 0.0 && v <= 1.0; };
+  require(share(finish.translucency), "translucency", finish.translucency, "0 to 1");
+  require(share(finish.gloss), "gloss", finish.gloss, "0 to 1");
+  require(finish.roughness >= 0.05 && finish.roughness <= 1.0, "roughness", finish.roughness, "0.05 to 1");
+  require(share(finish.detail), "detail", finish.detail, "0 to 1");
+}
+
+void check_surface(const Surface& surface, const std::string& name) {
+  const auto fail = [&](const std::string& what) { throw Error(ErrorCode::input, name + ": " + what); };
+  const auto vertices = surface.positions.rows();
+  const auto rows = [&](Eigen::Index n, const char* what) {
+    if (n != vertices) fail(fmt::format("{} {} for {} vertices; one for each is needed", n, what, vertices));
+  };
+  rows(surface.colours.rows(), "colours");
+  if (surface.normals.rows() > 0) rows(surface.normals.rows(), "normals");
+  if (surface.uv.rows() > 0) rows(surface.uv.rows(), "texture coordinates");
+  if (!surface.positions.allFinite()) fail("a position is not finite");
+  if (!surface.normals.allFinite()) fail("a normal is not finite");
+  if (!surface.uv.allFinite()) fail("a texture coordinate is not finite");
+  if (!(surface.colours.array() >= 0.0).all() || !(surface.colours.array() <= 1.0).all())
+    fail("a colour is outside 0 to 1 (linear RGB)");
+  for (int f = 0; f < surface.faces.rows(); ++f)
+    for (int i = 0; i < 3; ++i)
+      if (surface.faces(f, i) < 0 || surface.faces(f, i) >= vertices)
+        fail(fmt::format("face {} names vertex {}; there are {}", f, surface.faces(f, i), vertices));
+  check_finish(surface.finish, name);
+}
+
+void check_vein(const VeinLine& vein, const std::string& name) {
+  if (vein.positions.rows() < 2)
+    throw Error(ErrorCode::input,
+                fmt::format("{}: {} points; at least 2 are needed", name, vein.positions.rows()));
+  if (!vein.positions.allFinite()) throw Error(ErrorCode::input, name + ": a position is not finite");
+  if (!(vein.radius > 0.0) || !std::isfinite(vein.radius))
+    throw Error(ErrorCode::input, fmt::format("{}: radius is {} m; it must be above 0", name, vein.radius));
+}
+
+}  // namespace
+
+Vec3 Sky::radiance(const Vec3& unit_direction) const {
+  const double z = unit_direction.z();
+  return horizon + std::abs(z) * ((z > 0.0 ? zenith : nadir) - horizon);
+}
+
+// (1 / pi) times the integral over the hemisphere of (h + (q - h) cos) cos.
+Vec3 Sky::mean_above() const {
+  return horizon + (zenith - horizon) * (2.0 / 3.0);
+}
+
+Points3 scene_points(const Scene& scene) {
+  Eigen::Index count = 0;
+  for (const Surface& surface : scene.surfaces) count += surface.positions.rows();
+  for (const VeinLine& vein : scene.veins) count += vein.positions.rows();
+  Points3 points(count, 3);
+  Eigen::Index at = 0;
+  const auto append = [&](const Points3& part) {
+    points.middleRows(at, part.rows()) = part;
+    at += part.rows();
+  };
+  for (const Surface& surface : scene.surfaces) append(surface.positions);
+  for (const VeinLine& vein : scene.veins) append(vein.positions);
+  return points;
+}
+
+void validate(const Scene& scene) {
+  Eigen::Index faces = 0;
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+    check_surface(scene.surfaces[i], fmt::format("surface {}", i));
+    faces += scene.surfaces[i].faces.rows();
+  }
+  for (std::size_t i = 0; i < scene.veins.size(); ++i) check_vein(scene.veins[i], fmt::format("vein {}", i));
+  if (faces == 0)
+    throw Error(ErrorCode::input, "the scene is empty: no surface has a face; there is nothing to draw");
+}
+
+}  // namespace wilt

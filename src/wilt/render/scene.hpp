@@ -1,0 +1,74 @@
+// What a picture shows: surfaces, veins on them, and the light.
+#pragma once
+
+#include <vector>
+
+#include "wilt/core/types.hpp"
+
+namespace wilt {
+
+/// How a surface answers light.
+struct Finish {
+  double translucency = 0.55;  ///< of a leaf: transmittance relative to reflectance, in [0, 1]
+  double gloss = 0.7;          ///< weight of the waxy coat, in [0, 1]
+  double roughness = 0.42;     ///< of the coat (GGX alpha), in [0.05, 1]
+  double detail = 1.0;         ///< of a leaf: strength of the fine vein network and the mottling, in [0, 1]
+};
+
+/// A triangle mesh, in metres, Z up.
+///
+/// A leaf is a thin sheet: it reflects and transmits, its underside (faces seen clockwise) is paler. A solid
+/// is opaque and has one colour on both sides.
+struct Surface {
+  Points3 positions;  ///< #V x 3, metres
+  Points3 normals;    ///< #V x 3, or empty: computed, area-weighted
+  Faces faces;        ///< #F x 3
+  Points3 colours;    ///< #V x 3, linear RGB diffuse reflectance of the upper side, in [0, 1]
+  Points2 uv;         ///< #V x 2, carries the fine detail along with the leaf; empty: x and y carry it
+  bool leaf = true;
+  Finish finish;
+};
+
+/// A vein as a polyline on the blade, from its base outwards; shown as a ridge and a line of colour.
+struct VeinLine {
+  Points3 positions;                 ///< #K x 3, metres, K >= 2, on a leaf's surface
+  double radius = 0.0;               ///< at the base, metres, > 0; a third of it at the end
+  int order = 1;                     ///< 1: primary, 2: secondary
+  Vec3 colour = {0.50, 0.36, 0.15};  ///< linear RGB
+};
+
+struct Scene {
+  std::vector<Surface> surfaces;
+  std::vector<VeinLine> veins;
+};
+
+/// A distant disc.
+struct Sun {
+  Vec3 direction = {-0.62, 0.42, 0.58};  ///< towards the sun; any length but 0
+  double radius = 0.035;                 ///< angular, radians, in [0, 0.5]; the real one has 0.0047
+  Vec3 irradiance = {8.8, 7.4, 5.7};     ///< on a plane that faces it, linear RGB
+};
+
+/// A dome whose radiance changes linearly with the sine of the elevation between three heights.
+struct Sky {
+  Vec3 zenith = {0.44, 0.54, 0.71};
+  Vec3 horizon = {0.58, 0.60, 0.63};
+  Vec3 nadir = {0.38, 0.34, 0.29};
+
+  Vec3 radiance(const Vec3& unit_direction) const;
+  /// What a white horizontal plane under the open sky reflects: its irradiance / pi.
+  Vec3 mean_above() const;
+};
+
+struct Lighting {
+  Sun sun;
+  Sky sky;
+};
+
+/// Every position of the scene, surfaces first, #P x 3.
+Points3 scene_points(const Scene& scene);
+
+/// Throws Error{input} that names the first surface or vein that cannot be drawn and why; an empty scene too.
+void validate(const Scene& scene);
+
+}  // namespace wilt
