@@ -6,11 +6,13 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "wilt/core/error.hpp"
 #include "wilt/core/random.hpp"
 #include "wilt/leaf/curves.hpp"
 #include "wilt/leaf/presets.hpp"
+#include "wilt/leaf/rings.hpp"
 #include "wilt/leaf/teeth.hpp"
 
 namespace wilt {
@@ -161,15 +163,7 @@ BladeOutline finish(Polyline ring, const Polyline& tips, std::size_t apex, doubl
   return blade;
 }
 
-}  // namespace
-
-BladeOutline blade_outline(std::string_view species_name, std::uint64_t seed) {
-  const OutlineRule& rule = preset(species_name).outline;
-  if (rule.lobes.empty()) {
-    throw Error(
-        ErrorCode::input,
-        fmt::format("the preset '{}' has no outline of its own: name one of the six species", species_name));
-  }
+BladeOutline draw_blade(const OutlineRule& rule, std::uint64_t seed) {
   Random random(seed, "blade outline");
   const Individual individual(rule, random);
   Polyline ring, tips;
@@ -187,6 +181,25 @@ BladeOutline blade_outline(std::string_view species_name, std::uint64_t seed) {
     }
   }
   return finish(std::move(ring), tips, apex, rule.blunt);
+}
+
+}  // namespace
+
+BladeOutline blade_outline(std::string_view species_name, std::uint64_t seed) {
+  OutlineRule rule = preset(species_name).outline;
+  if (rule.lobes.empty()) {
+    throw Error(
+        ErrorCode::input,
+        fmt::format("the preset '{}' has no outline of its own: name one of the six species", species_name));
+  }
+  // A rare individual whose lobes run into each other is drawn again, nearer to the type.
+  for (int attempt = 0; attempt < 4; ++attempt) {
+    BladeOutline blade = draw_blade(rule, seed);
+    if (!find_crossing(rings_of(blade.outline))) return blade;
+    rule.vary *= 0.5;
+    rule.wave *= 0.5;
+  }
+  throw std::logic_error(fmt::format("the preset '{}' draws a margin that crosses itself", species_name));
 }
 
 }  // namespace wilt
