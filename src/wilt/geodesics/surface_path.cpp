@@ -14,14 +14,6 @@ int corner_of(const SurfaceMesh& mesh, FaceId f, VertexId v) {
   return found == corners.end() ? -1 : static_cast<int>(found - corners.begin());
 }
 
-bool holds(const SurfaceMesh& mesh, FaceId f, const SurfacePoint& point) {
-  const auto corners = mesh.face_vertices(point.face);
-  for (int k = 0; k < 3; ++k) {
-    if (point.barycentric[k] != 0.0 && corner_of(mesh, f, corners[k]) < 0) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 SurfacePoint surface_point(const SurfaceMesh& mesh, VertexId v) {
@@ -44,10 +36,18 @@ Vec3 position(const SurfaceMesh& mesh, const Points3& positions, const SurfacePo
   return (w[0] * positions.row(a) + w[1] * positions.row(b) + w[2] * positions.row(c)).transpose();
 }
 
+bool lies_in(const SurfaceMesh& mesh, const SurfacePoint& point, FaceId face) {
+  const auto corners = mesh.face_vertices(point.face);
+  for (int k = 0; k < 3; ++k) {
+    if (point.barycentric[k] != 0.0 && corner_of(mesh, face, corners[k]) < 0) return false;
+  }
+  return true;
+}
+
 std::vector<FaceId> faces_at(const SurfaceMesh& mesh, const SurfacePoint& point) {
   std::vector<FaceId> faces{point.face};
   const auto add = [&](FaceId f) {
-    if (f.valid() && f != point.face && holds(mesh, f, point)) faces.push_back(f);
+    if (f.valid() && f != point.face && lies_in(mesh, point, f)) faces.push_back(f);
   };
   const Vec3& w = point.barycentric;
   const HalfedgeId h = mesh.halfedge(point.face);
@@ -60,7 +60,7 @@ std::vector<FaceId> faces_at(const SurfaceMesh& mesh, const SurfacePoint& point)
 }
 
 SurfacePoint in_face(const SurfaceMesh& mesh, const SurfacePoint& point, FaceId face) {
-  WILT_CHECK(holds(mesh, face, point), int(face), int(point.face), point.barycentric.transpose());
+  WILT_CHECK(lies_in(mesh, point, face), int(face), int(point.face), point.barycentric.transpose());
   if (face == point.face) return point;
   SurfacePoint result{face, Vec3::Zero()};
   const auto corners = mesh.face_vertices(point.face);
@@ -73,7 +73,7 @@ SurfacePoint in_face(const SurfaceMesh& mesh, const SurfacePoint& point, FaceId 
 
 FaceId common_face(const SurfaceMesh& mesh, const SurfacePoint& a, const SurfacePoint& b) {
   for (const FaceId f : faces_at(mesh, a)) {
-    if (holds(mesh, f, b)) return f;
+    if (lies_in(mesh, b, f)) return f;
   }
   return FaceId();
 }

@@ -24,6 +24,9 @@ SurfacePoint surface_point(const SurfaceMesh& mesh, HalfedgeId h, double t);
 
 Vec3 position(const SurfaceMesh& mesh, const Points3& positions, const SurfacePoint& point);
 
+/// Whether `face` holds the point, inside, on an edge or at a vertex.
+bool lies_in(const SurfaceMesh& mesh, const SurfacePoint& point, FaceId face);
+
 /// Every face that holds the point: one, the two of an edge, or all around a vertex.
 std::vector<FaceId> faces_at(const SurfaceMesh& mesh, const SurfacePoint& point);
 

@@ -1,0 +1,153 @@
+#include "wilt/geodesics/fast_geodesics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "wilt/core/error.hpp"
+#include "wilt/core/parallel.hpp"
+#include "wilt/geodesics/exact_geodesics.hpp"
+#include "wilt/geodesics/fast_march.hpp"
+
+namespace wilt {
+namespace {
+
+using detail::FastMarch;
+using detail::HalfedgeFrame;
+using detail::Unfolding;
+
+// Sources between two looks at the monitor.
+constexpr int kBlock = 32;
+
+Eigen::VectorXd result_of(const SurfaceMesh& mesh, const FastMarch& march) {
+  Eigen::VectorXd result(mesh.num_vertices());
+  for (const VertexId v : mesh.vertices()) result[v] = march.distance(v);
+  return result;
+}
+
+void check_point(const SurfaceMesh& mesh, const SurfacePoint& point) {
+  const Vec3& w = point.barycentric;
+  if (point.face < 0 || point.face >= mesh.num_faces() || !(w.minCoeff() >= -1e-9) ||
+      !(std::abs(w.sum() - 1.0) <= 1e-9))
+    throw Error(
+        ErrorCode::input,
+        fmt::format("a source path has the point ({}, {}, {}) in face {}; its coordinates must be >= 0 "
+                    "and sum to 1, in a face from 0 to {}",
+                    w[0], w[1], w[2], int(point.face), mesh.num_faces() - 1));
+}
+
+// The three halfedges of a face.
+std::array<HalfedgeId, 3> halfedges(const SurfaceMesh& mesh, FaceId f) {
+  const HalfedgeId h = mesh.halfedge(f);
+  return {h, mesh.next(h), mesh.prev(h)};
+}
+
+// A point of the face of h in the frame of h.
+Vec2 in_frame(const SurfaceMesh& mesh, const Unfolding& unfolding, HalfedgeId h, const SurfacePoint& point) {
+  const HalfedgeFrame& frame = unfolding.frame(h);
+  const int k = h - mesh.halfedge(point.face);
+  return point.barycentric[(k + 1) % 3] * Vec2(frame.length, 0.0) +
+         point.barycentric[(k + 2) % 3] * frame.apex;
+}
+
+// Seeds the corners of a face with the segment a b in it.
+void seed_segment(const SurfaceMesh& mesh, const Unfolding& unfolding, const SurfacePoint& a,
+                  const SurfacePoint& b, FastMarch& march) {
+  for (const HalfedgeId h : halfedges(mesh, a.face)) {
+    // In the frame of h its first vertex is the origin; the face lies counter-clockwise from h.
+    const Vec2 p = in_frame(mesh, unfolding, h, a), q = in_frame(mesh, unfolding, h, b);
+    const double squared = (q - p).squaredNorm();
+    const double t = squared > 0.0 ? std::clamp(-p.dot(q - p) / squared, 0.0, 1.0) : 0.0;
+    const Vec2 nearest = p + t * (q - p);
+    march.add_curve_point(mesh.from(h), nearest.norm(),
+                          unfolding.angle(h) - std::atan2(nearest.y(), nearest.x()));
+  }
+}
+
+void seed_path(const SurfaceMesh& mesh, const Unfolding& unfolding, const SurfacePath& path,
+               FastMarch& march) {
+  for (const SurfacePoint& point : path.points) check_point(mesh, point);
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    const SurfacePoint& a = path.points[i];
+    const SurfacePoint& b = path.points[std::min(i + 1, path.points.size() - 1)];
+    bool together = false;
+    for (const FaceId f : faces_at(mesh, a)) {
+      if (!lies_in(mesh, b, f)) continue;
+      together = true;
+      seed_segment(mesh, unfolding, in_face(mesh, a, f), in_face(mesh, b, f), march);
+    }
+    if (!together)
+      throw Error(ErrorCode::input,
+                  fmt::format("points {} and {} of a source path lie in faces {} and {} and share no "
+                              "face; split the segment where it crosses edges",
+                              i, i + 1, int(a.face), int(b.face)));
+  }
+}
+
+// Calls row(i) for all sources in blocks, in parallel within a block; the monitor is asked between blocks.
+void for_sources(int count, const Monitor& monitor, const std::function<void(int)>& row) {
+  for (int begin = 0; begin < count; begin += kBlock) {
+    monitor.throw_if_cancelled();
+    monitor.report("geodesics", static_cast<double>(begin) / count);
+    parallel_for(std::min(kBlock, count - begin), 1, [&](int first, int last) {
+      for (int i = first; i < last; ++i) row(begin + i);
+    });
+  }
+  monitor.report("geodesics", 1.0);
+}
+
+// Distances from a vertex to all, by the method.
+std::function<Eigen::VectorXd(VertexId)> solver(const SurfaceMesh& mesh, const Points3& positions,
+                                                GeodesicMethod method) {
+  if (method == GeodesicMethod::exact)
+    return [geodesics = ExactGeodesics(mesh, positions)](VertexId v) { return geodesics.distances(v); };
+  return [geodesics = FastGeodesics(mesh, positions)](VertexId v) { return geodesics.distances(v); };
+}
+
+}  // namespace
+
+FastGeodesics::FastGeodesics(const SurfaceMesh& mesh, const Points3& positions)
+    : mesh_(mesh), positions_(positions), unfolding_(std::make_shared<const Unfolding>(mesh, positions)) {}
+
+Eigen::VectorXd FastGeodesics::distances(VertexId source) const {
+  detail::check_vertex(mesh_, source, "the source");
+  FastMarch march(mesh_, *unfolding_);
+  march.add_source(source);
+  march.run();
+  return result_of(mesh_, march);
+}
+
+Eigen::VectorXd FastGeodesics::distances(std::span<const SurfacePath> sources) const {
+  FastMarch march(mesh_, *unfolding_);
+  for (const SurfacePath& path : sources) seed_path(mesh_, *unfolding_, path, march);
+  march.run();
+  return result_of(mesh_, march);
+}
+
+Eigen::MatrixXd geodesic_distances(const SurfaceMesh& mesh, const Points3& positions,
+                                   std::span<const VertexId> sources, GeodesicMethod method,
+                                   const Monitor& monitor) {
+  for (const VertexId v : sources) detail::check_vertex(mesh, v, "the source");
+  const auto solve = solver(mesh, positions, method);
+  Eigen::MatrixXd result(sources.size(), mesh.num_vertices());
+  for_sources(static_cast<int>(sources.size()), monitor,
+              [&](int i) { result.row(i) = solve(sources[i]).transpose(); });
+  return result;
+}
+
+Eigen::MatrixXd all_pairs(const SurfaceMesh& mesh, const Points3& positions, GeodesicMethod method,
+                          const Monitor& monitor) {
+  const auto solve = solver(mesh, positions, method);
+  const int n = mesh.num_vertices();
+  Eigen::MatrixXd result(n, n);
+  for_sources(n, monitor, [&](int i) { result.col(i) = solve(VertexId(i)); });
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < i; ++j) result(i, j) = result(j, i) = 0.5 * (result(i, j) + result(j, i));
+  }
+  return result;
+}
+
+}  // namespace wilt

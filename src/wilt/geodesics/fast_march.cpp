@@ -1,0 +1,189 @@
+#include "wilt/geodesics/fast_march.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace wilt::detail {
+namespace {
+
+// The root of vertices that are reached straight from a curve.
+constexpr int kCurve = -2;
+// A path along an edge that bends less than this at its vertex, radians, keeps its root: the gaps that
+// curvature leaves between neighbouring faces are no shadows.
+constexpr double kBend = 0.05;
+// A ray may miss the edge by this much of its length; the error is of second order in the miss.
+constexpr double kMiss = 1e-6;
+
+}  // namespace
+
+FastMarch::FastMarch(const SurfaceMesh& mesh, const Unfolding& unfolding)
+    : mesh_(mesh), unfolding_(unfolding), states_(mesh.num_vertices()) {}
+
+void FastMarch::add_source(VertexId v) {
+  State state;
+  state.distance = 0.0;
+  state.root = v;
+  push(v, state);
+}
+
+void FastMarch::add_curve_point(VertexId v, double distance, double angle) {
+  if (!(distance < states_[v].distance)) return;
+  State state;
+  state.distance = distance;
+  state.angle = angle;
+  state.root = kCurve;
+  push(v, state);
+}
+
+void FastMarch::run() {
+  const auto later = [](const Entry& a, const Entry& b) {
+    return a.distance != b.distance ? a.distance > b.distance : a.vertex > b.vertex;
+  };
+  while (!heap_.empty()) {
+    std::pop_heap(heap_.begin(), heap_.end(), later);
+    const VertexId v = heap_.back().vertex;
+    heap_.pop_back();
+    State& state = states_[v];
+    if (state.finished) continue;
+    state.finished = true;
+    if (state.halfedge.valid()) state.angle = arrival_angle(v);
+    sweep(v);
+  }
+}
+
+void FastMarch::push(VertexId v, const State& state) {
+  states_[v] = state;
+  heap_.push_back({state.distance, v});
+  std::push_heap(heap_.begin(), heap_.end(), [](const Entry& a, const Entry& b) {
+    return a.distance != b.distance ? a.distance > b.distance : a.vertex > b.vertex;
+  });
+}
+
+double FastMarch::arrival_angle(VertexId v) const {
+  const State& state = states_[v];
+  const HalfedgeFrame& frame = unfolding_.frame(state.halfedge);
+  const Vec2 ray = state.image - frame.apex;
+  const Vec2& axis = frame.right;
+  const double turn = std::atan2(axis.y() * ray.x() - axis.x() * ray.y(), axis.dot(ray));
+  return unfolding_.angle(mesh_.twin(mesh_.next(state.halfedge))) + turn;
+}
+
+void FastMarch::sweep(VertexId u) {
+  mesh_.for_outgoing(u, [&](HalfedgeId h) {
+    if (!states_[mesh_.to(h)].finished) along_edge(h);
+    if (mesh_.is_boundary(h)) return;
+    // face(h) = (u, a, b): b across the edge u a, and a across the edge b u.
+    across(h);
+    across(mesh_.prev(h));
+  });
+}
+
+// By how much the path to u and on along `out` bends at u, radians; 0 at a source.
+double FastMarch::bend(VertexId u, HalfedgeId out) const {
+  const State& state = states_[u];
+  if (state.root == u) return 0.0;
+  double turn = std::abs(unfolding_.angle(out) - state.angle);
+  if (!mesh_.is_boundary(u)) turn = std::min(turn, unfolding_.total_angle(u) - turn);
+  return std::abs(std::numbers::pi - turn);
+}
+
+void FastMarch::along_edge(HalfedgeId h) {
+  const VertexId u = mesh_.from(h), v = mesh_.to(h);
+  const State& from = states_[u];
+  const double distance = from.distance + unfolding_.length(h);
+  if (!(distance < states_[v].distance)) return;
+  State state;
+  state.distance = distance;
+  const bool straight = bend(u, h) < kBend;
+  state.root = straight ? from.root : int(u);
+  state.offset = straight ? from.offset : from.distance;
+  state.angle = unfolding_.angle(mesh_.twin(h));
+  push(v, state);
+}
+
+// The vertex opposite h from the two vertices of h, of which one has just been finished.
+void FastMarch::across(HalfedgeId h) {
+  const VertexId u = mesh_.from(h), w = mesh_.to(h), v = mesh_.to(mesh_.next(h));
+  const State &a = states_[u], &b = states_[w];
+  if (states_[v].finished) return;
+  if (!a.finished || !b.finished) {
+    // At an obtuse corner the path may arrive before both others are finished.
+    const HalfedgeFrame& frame = unfolding_.frame(h);
+    if (frame.apex.dot(frame.apex - Vec2(frame.length, 0.0)) >= 0.0) return;
+    const VertexId known = a.finished ? u : w;
+    if (states_[known].root == known) return;
+    return through(h, a.finished ? image_at_start(h) : image_at_end(h), known);
+  }
+  if (a.root == kCurve && b.root == kCurve) return curve(h);
+  if (a.root != b.root) return two_roots(h);
+  const double length = unfolding_.length(h);
+  const double ra = a.distance - a.offset, rb = b.distance - b.offset;
+  const double x = (ra * ra - rb * rb + length * length) / (2.0 * length);
+  through(h, {x, -std::sqrt(std::max(0.0, ra * ra - x * x))}, u);
+}
+
+// Offers the vertex opposite h the straight path from `image`, if it crosses h; its root is that of `like`.
+void FastMarch::through(HalfedgeId h, const Vec2& image, VertexId like) {
+  const HalfedgeFrame& frame = unfolding_.frame(h);
+  if (image.y() > 0.0) return;
+  const double crossing = meet_axis(image, frame.apex), miss = kMiss * frame.length;
+  if (!(crossing >= -miss && crossing <= frame.length + miss)) return;
+  State state;
+  state.offset = states_[like].offset;
+  state.distance = state.offset + (frame.apex - image).norm();
+  const VertexId v = mesh_.to(mesh_.next(h));
+  if (!(state.distance < states_[v].distance)) return;
+  state.root = states_[like].root;
+  state.image = image;
+  state.halfedge = h;
+  push(v, state);
+}
+
+// The image of the root of from(h), below h.
+Vec2 FastMarch::image_at_start(HalfedgeId h) const {
+  const VertexId u = mesh_.from(h);
+  const State& state = states_[u];
+  double turn = state.angle - unfolding_.angle(h);
+  if (turn < 0.0 && !mesh_.is_boundary(u)) turn += unfolding_.total_angle(u);
+  const double r = state.distance - state.offset;
+  return {r * std::cos(turn), -r * std::sin(turn)};
+}
+
+// The image of the root of to(h), below h.
+Vec2 FastMarch::image_at_end(HalfedgeId h) const {
+  const VertexId w = mesh_.to(h);
+  const State& state = states_[w];
+  double turn = unfolding_.angle(mesh_.twin(h)) - state.angle;
+  if (turn < 0.0 && !mesh_.is_boundary(w)) turn += unfolding_.total_angle(w);
+  const double r = state.distance - state.offset;
+  return {unfolding_.length(h) - r * std::cos(turn), -r * std::sin(turn)};
+}
+
+void FastMarch::two_roots(HalfedgeId h) {
+  const VertexId u = mesh_.from(h), w = mesh_.to(h);
+  const Vec2 at_u = image_at_start(h), at_w = image_at_end(h);
+  const int root_u = states_[u].root, root_w = states_[w].root;
+  const Vec2& apex = unfolding_.frame(h).apex;
+  const auto side = [](const Vec2& a, const Vec2& b, const Vec2& p) {
+    return (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
+  };
+  // The root of one may stand in the light of the other's: the line through both bounds its shadow. The start
+  // of h is on the left of a ray that crosses h upwards.
+  bool sees_u = true, sees_w = true;
+  if (root_w >= 0 && states_[root_w].root == root_u) sees_u = side(at_u, at_w, apex) > 0.0, sees_w = !sees_u;
+  if (root_u >= 0 && states_[root_u].root == root_w) sees_w = side(at_w, at_u, apex) < 0.0, sees_u = !sees_w;
+  if (sees_u) through(h, at_u, u);
+  if (sees_w) through(h, at_w, w);
+}
+
+// The nearest point of the straight piece of curve between the nearest points of both ends of h.
+void FastMarch::curve(HalfedgeId h) {
+  const Vec2 a = image_at_start(h), b = image_at_end(h);
+  const Vec2& apex = unfolding_.frame(h).apex;
+  const double squared = (b - a).squaredNorm();
+  const double t = squared > 0.0 ? std::clamp((apex - a).dot(b - a) / squared, 0.0, 1.0) : 0.0;
+  through(h, a + t * (b - a), mesh_.from(h));
+}
+
+}  // namespace wilt::detail
