@@ -16,7 +16,8 @@ using test::procrustes_error;
 using test::scattered;
 using test::spherical_distances;
 
-constexpr SmacofOptions kLong{2000, 1e-12};
+// Stops only when the stress no longer falls.
+constexpr SmacofOptions kLong{2000, 1e-300};
 
 double stress_by_definition(const Eigen::MatrixXd& distances, const Points2& points) {
   double raw = 0.0, scale = 0.0;
@@ -30,14 +31,13 @@ double stress_by_definition(const Eigen::MatrixXd& distances, const Points2& poi
   return raw / scale;
 }
 
-// Oracle: analytic. Distances of points in the plane are met exactly; the rate is linear, and at a relative
-// change of 1e-12 what is left is far below 1e-5.
+// Oracle: analytic. Distances of points in the plane are met exactly, but for round-off, once nothing improves.
 TEST(Smacof, RecoversPlanarPointsFromADisturbedStart) {
   const Points2 points = scattered(150, 2.0, 2);
   Points2 start = points + 0.05 * scattered(150, 1.0, 9);
   const Embedding embedding = smacof(euclidean_distances(points), start, kLong);
-  EXPECT_LT(embedding.stress, 1e-12);
-  EXPECT_LT(procrustes_error(embedding.coordinates, points), 1e-5);
+  EXPECT_LT(embedding.stress, 1e-24);
+  EXPECT_LT(procrustes_error(embedding.coordinates, points), 1e-10);
 }
 
 // Oracle: the definition in the header, term by term.

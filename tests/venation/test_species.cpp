@@ -1,0 +1,69 @@
+// The six species, from geometry alone. Larger leaves and more seeds stand in docs/validation.md.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "venation/leaves.hpp"
+#include "wilt/leaf/species.hpp"
+#include "wilt/venation/venation.hpp"
+
+namespace wilt {
+namespace {
+
+struct Expected {
+  std::string species;
+  int tips;
+  double stress;  ///< three times what a prototype's leaf of 1,050 vertices has; individuals vary
+};
+
+const Expected kExpected[] = {{"maple", 7, 3 * 4.2e-3}, {"poplar", 1, 3 * 1.2e-4}, {"tilia", 1, 3 * 1.2e-4},
+                              {"ivy", 5, 3 * 1.2e-4},   {"willow", 1, 3 * 1.2e-4}, {"grape", 5, 3 * 2.4e-4}};
+
+VenationOptions without_secondary() {
+  VenationOptions options;
+  options.secondary = false;
+  return options;
+}
+
+class EverySpecies : public testing::TestWithParam<Expected> {};
+
+INSTANTIATE_TEST_SUITE_P(Venation, EverySpecies, testing::ValuesIn(kExpected),
+                         [](const auto& info) { return info.param.species; });
+
+// Oracle: botany; the number of lobes that make_leaf draws.
+TEST_P(EverySpecies, HasItsTips) {
+  for (const int vertices : {800, 2000}) {
+    for (std::uint64_t seed = 1; seed <= (vertices == 800 ? 3u : 1u); ++seed) {
+      const Leaf leaf = make_leaf(GetParam().species, vertices, seed);
+      const Venation venation = find_venation(leaf, {}, without_secondary());
+      EXPECT_EQ(static_cast<int>(venation.tips.size()), GetParam().tips)
+          << vertices << " vertices, seed " << seed;
+      EXPECT_LT(venation.embedding_stress, GetParam().stress) << vertices << " vertices, seed " << seed;
+    }
+  }
+}
+
+// Oracle: invariance. The same leaf from a file: rounded to float, numbered anew, nameless.
+TEST_P(EverySpecies, HasTheSameTipsWhenReadBack) {
+  const Leaf leaf = make_leaf(GetParam().species, 800, 4);
+  const Venation venation = find_venation(leaf, {}, without_secondary());
+  std::vector<int> number;
+  const Venation same = find_venation(test::read_back(leaf, 4, &number), {}, without_secondary());
+  ASSERT_EQ(same.tips.size(), venation.tips.size());
+  for (std::size_t i = 0; i < same.tips.size(); ++i)
+    EXPECT_EQ(same.tips[i].vertex, number[venation.tips[i].vertex]);
+}
+
+// Oracle: botany. A feather in a leaf with one midrib; lateral veins on each primary of a palmate leaf.
+TEST_P(EverySpecies, HasSecondaryVeins) {
+  const Leaf leaf = make_leaf(GetParam().species, 800, 1);
+  const Venation venation = find_venation(leaf, species(GetParam().species).secondary);
+  std::vector<int> children(venation.tips.size(), 0);
+  for (const Vein& vein : venation.veins) {
+    if (vein.order == 2) ++children[vein.parent];
+  }
+  for (const int count : children) EXPECT_GE(count, GetParam().tips == 1 ? 6 : 1);
+}
+
+}  // namespace
+}  // namespace wilt
