@@ -14,8 +14,6 @@ struct MidpointOptions {
   int max_newton = 30;      ///< Newton iterations before the step is halved, >= 1
   int max_linear = 500;     ///< conjugate-gradient iterations per Newton iteration, >= 1
   int max_halvings = 8;     ///< how often a step may be halved, [0, 30]
-  double max_displacement =
-      1e6;  ///< a vertex that moves farther in one step counts as lost, working length, > 0
 
   void validate() const;  ///< throws Error{configuration}
 };
@@ -38,11 +36,11 @@ struct StepReport {
 ///
 /// The unknown is d = x1 - x0, the equation R(d) = M (2 d/dt^2 - 2 v0/dt) - F(x0 + d/2, d/dt) = 0 on the free
 /// vertices; pinned ones keep their positions and have no velocity. Converged when ||R|| <= max(tolerance *
-/// S, round-off), S the larger of ||2 M v0/dt|| and the norm of any single term's force at the start; the
-/// round-off bound is what one unit in the last place of the positions changes R by. Each Newton step is
-/// solved by conjugate gradients, first with the exact second derivatives, then with semi-definite ones where
-/// these fail, and shortened until ||R|| falls. A step that does not converge is halved, up to `max_halvings`
-/// times. Deterministic on any number of threads.
+/// S, round-off), S the larger of ||2 M v0/dt|| and the norm of any single term's force where the iteration
+/// starts; the round-off bound is what one unit in the last place of the positions changes R by. Each Newton
+/// step is solved by conjugate gradients, first with the exact second derivatives, then with semi-definite
+/// ones where these fail, and shortened until ||R|| falls. A step that does not converge is halved, up to
+/// `max_halvings` times. Deterministic on any number of threads.
 class ImplicitMidpoint {
  public:
   /// All terms must have been added to `system`, which must outlive this. Throws Error{configuration}.
@@ -52,9 +50,8 @@ class ImplicitMidpoint {
   StepReport step(MotionState& state, double dt);
 
  private:
-  struct Attempt;
   bool advance(MotionState& state, double dt, int halvings_left, StepReport& report);
-  bool attempt(MotionState& state, double dt, StepReport& report);
+  bool solve(MotionState& state, double dt, StepReport& report);
 
   System* system_;
   MidpointOptions options_;

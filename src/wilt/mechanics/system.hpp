@@ -49,15 +49,13 @@ class System {
   /// The pattern that all terms together need; binds every term to it.
   std::shared_ptr<const BlockPattern> make_pattern();
 
-  /// The sum of all forces, #V x 3 (pinned vertices included: there it is minus the reaction).
-  void total_force(const Points3& x, const Points3& v, Points3& force) const;
+  /// force = the sum of all forces, #V x 3 (pinned vertices included: there it is minus the reaction).
+  /// Returns the largest norm over the free vertices of any single term's force: the scale to compare a
+  /// residual with.
+  double total_force(const Points3& x, const Points3& v, Points3& force) const;
 
   /// The force of the term of this name. Throws Error{configuration} when there is none.
   Points3 force_of(const std::string& name, const Points3& x, const Points3& v) const;
-
-  /// The largest norm over the free vertices of any single term's force: the scale to compare a residual
-  /// with.
-  double force_scale(const Points3& x, const Points3& v) const;
 
   /// Each energy's name and value.
   std::vector<std::pair<std::string, double>> energies(const Points3& x) const;

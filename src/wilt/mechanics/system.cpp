@@ -1,0 +1,107 @@
+#include "wilt/mechanics/system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wilt/core/nearest.hpp"
+#include "wilt/mechanics/argument_checks.hpp"
+
+namespace wilt {
+namespace {
+
+double free_norm(const Points3& values, const std::vector<char>& pinned) {
+  double sum = 0.0;
+  for (int i = 0; i < values.rows(); ++i) {
+    if (!pinned[i]) sum += values.row(i).squaredNorm();
+  }
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+System::System(const Eigen::VectorXd& masses, std::vector<char> pinned) : pinned_(std::move(pinned)) {
+  masses_.resize(masses.size());
+  if (pinned_.size() != static_cast<std::size_t>(masses.size()))
+    throw Error(ErrorCode::configuration,
+                fmt::format("{} flags of pinned vertices for {} masses; give one per vertex", pinned_.size(),
+                            masses.size()));
+  set_masses(masses);
+}
+
+void System::set_masses(const Eigen::VectorXd& masses) {
+  detail::require_count("masses", masses.size(), masses_.size());
+  detail::require_values("the mass of vertex", masses, 0.0, true);
+  masses_ = masses;
+}
+
+std::shared_ptr<const BlockPattern> System::make_pattern() {
+  std::vector<Stencil> stencils;
+  for (const auto& [name, energy] : energies_) stencils.push_back(energy->stencil());
+  for (const auto& [name, force] : forces_) stencils.push_back(force->stencil());
+  const auto pattern = std::make_shared<const BlockPattern>(vertex_count(), stencils);
+  for (const auto& [name, energy] : energies_) energy->bind(*pattern);
+  for (const auto& [name, force] : forces_) force->bind(*pattern);
+  return pattern;
+}
+
+double System::total_force(const Points3& x, const Points3& v, Points3& force) const {
+  double scale = 0.0;
+  Points3 term(x.rows(), 3);
+  force.setZero(x.rows(), 3);
+  for (const auto& [name, energy] : energies_) {
+    term.setZero();
+    energy->add_gradient(x, term);
+    force -= term;
+    scale = std::max(scale, free_norm(term, pinned_));
+  }
+  for (const auto& [name, other] : forces_) {
+    term.setZero();
+    other->add_force(x, v, term);
+    force += term;
+    scale = std::max(scale, free_norm(term, pinned_));
+  }
+  return scale;
+}
+
+Points3 System::force_of(const std::string& name, const Points3& x, const Points3& v) const {
+  Points3 force = Points3::Zero(x.rows(), 3);
+  std::vector<std::string> names;
+  for (const auto& [other, energy] : energies_) {
+    names.push_back(other);
+    if (other != name) continue;
+    energy->add_gradient(x, force);
+    return -force;
+  }
+  for (const auto& [other, term] : forces_) {
+    names.push_back(other);
+    if (other != name) continue;
+    term->add_force(x, v, force);
+    return force;
+  }
+  throw Error(ErrorCode::configuration, fmt::format("there is no force called '{}'; there are: {}{}", name,
+                                                    fmt::join(names, ", "), did_you_mean(name, names)));
+}
+
+std::vector<std::pair<std::string, double>> System::energies(const Points3& x) const {
+  std::vector<std::pair<std::string, double>> values;
+  for (const auto& [name, energy] : energies_) values.emplace_back(name, energy->energy(x));
+  return values;
+}
+
+double System::kinetic_energy(const Points3& v) const {
+  double sum = 0.0;
+  for (int i = 0; i < v.rows(); ++i) sum += 0.5 * masses_[i] * v.row(i).squaredNorm();
+  return sum;
+}
+
+void System::assemble(const Points3& x, const Points3& v, double position_scale, double velocity_scale,
+                      Curvature curvature, BlockMatrix& matrix) const {
+  matrix.set_zero();
+  for (int i = 0; i < vertex_count(); ++i) matrix.add_diagonal(i, masses_[i]);
+  for (const auto& [name, energy] : energies_) energy->add_hessian(x, matrix, position_scale, curvature);
+  for (const auto& [name, force] : forces_)
+    force->add_jacobian(x, v, matrix, position_scale, velocity_scale, curvature);
+  matrix.finish();
+}
+
+}  // namespace wilt
