@@ -1,0 +1,71 @@
+// Writes GLBs for readers that are not ours, and beside them what went into them, in the leaf frame.
+// Usage: write_samples FOLDER
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "sample_leaf.hpp"
+#include "wilt/output/file.hpp"
+#include "wilt/output/gltf.hpp"
+
+namespace {
+
+using Json = nlohmann::json;
+
+template <class Matrix>
+Json rows(const Matrix& matrix) {
+  Json list = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index c = 0; c < matrix.cols(); ++c) row.push_back(matrix(i, c));
+    list.push_back(row);
+  }
+  return list;
+}
+
+void write(const std::string& name, const wilt::GlbScene& scene, double seconds) {
+  wilt::GlbOptions options;
+  options.seconds = seconds;
+  write_glb(name + ".glb", scene, options);
+  const wilt::Leaf& leaf = scene.leaf;
+  Json frames = Json::array();
+  for (std::size_t k = 0; k < scene.frames.size(); ++k) {
+    const wilt::Frame& frame = scene.frames[k];
+    frames.push_back({{"iteration", frame.iteration},
+                      {"positions", rows(frame.positions)},
+                      {"stalk", rows(frame.stalk)},
+                      {"water", rows(frame.water_fraction)}});
+    if (!scene.colours.empty()) frames.back()["colours"] = rows(scene.colours.at(k));
+    if (!scene.stalk_colours.empty())
+      frames.back()["stalk_colour"] = rows(scene.stalk_colours.at(k).transpose());
+  }
+  const Json vertices(std::vector<int>(leaf.skin.vertex.begin(), leaf.skin.vertex.end()));
+  const Json dump = {
+      {"seconds", seconds},
+      {"stalk_sides", options.stalk_sides},
+      {"frames", frames},
+      {"mesh_faces", rows(leaf.mesh.face_matrix())},
+      {"skin", {{"vertex", vertices}, {"uv", rows(leaf.skin.uv)}, {"faces", rows(leaf.skin.faces)}}},
+      {"radii", leaf.stalk.radii},
+      {"rotation", rows(leaf.placement.rotation)},
+      {"translation", rows(leaf.placement.translation.transpose())},
+      {"scale", leaf.placement.scale}};
+  wilt::write_file(name + ".json", dump.dump());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  const std::string folder = argv[1];
+  std::filesystem::create_directories(folder);
+  wilt::test::Sample sample;
+  write(folder + "/withering", sample.scene(), 4.0);
+  sample.leaf.placement = wilt::test::sample_placement();
+  write(folder + "/placed", sample.scene(), 2.5);
+  const std::vector<wilt::Frame> rest = rest_frames(sample.leaf);
+  write(folder + "/rest", {sample.leaf, rest, nullptr, "{}", {}, {}, ""}, 4.0);
+  sample.leaf.stalk = {};
+  const std::vector<wilt::Frame> bare = rest_frames(sample.leaf);
+  write(folder + "/bare", {sample.leaf, bare, nullptr, "{}", {}, {}, ""}, 4.0);
+  return 0;
+}
