@@ -1,0 +1,178 @@
+#include "wilt/output/file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <random>
+#include <utility>
+
+#include "wilt/core/error.hpp"
+
+namespace wilt {
+namespace {
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+std::string remedy(const std::string& path, int reason) {
+  const std::string folder = folder_of(path);
+  switch (reason) {
+    case ENOENT:
+      return fmt::format("the folder '{0}' does not exist; make it (mkdir -p '{0}') or choose another path",
+                         folder);
+    case ENOTDIR:
+      return fmt::format("a part of '{}' is a file, not a folder; choose another path", folder);
+    case EISDIR:
+      return "it is a folder; give the name of a file in it";
+    case EACCES:
+    case EPERM:
+      return "allow writing there (chmod u+w) or choose another path";
+    case EROFS:
+      return "the file system is read-only; choose another path";
+    case ENOSPC:
+    case EDQUOT:
+      return "free some space or choose another disk";
+    case EFBIG:
+      return "the limit on the size of files is too small (ulimit -f); raise it or write fewer frames";
+    case EPIPE:
+      return "the program that reads the pipe has ended";
+    case ENAMETOOLONG:
+      return "choose a shorter name";
+    default:
+      return "choose another path";
+  }
+}
+
+[[noreturn]] void fail(const std::string& path, int reason) {
+  throw Error(ErrorCode::output,
+              fmt::format("cannot write '{}': {}: {}", path, std::strerror(reason), remedy(path, reason)));
+}
+
+/// An open file that is closed again, and removed if it was never kept.
+class Output {
+ public:
+  Output(std::string path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {}
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+  ~Output() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (temporary_) ::unlink(path_.c_str());
+  }
+
+  bool open() const { return descriptor_ >= 0; }
+  int descriptor() const { return descriptor_; }
+  const std::string& path() const { return path_; }
+  void mark_temporary() { temporary_ = true; }
+  void kept() { temporary_ = false; }
+
+  /// 0, or the reason why not.
+  int write(std::string_view bytes) const {
+    while (!bytes.empty()) {
+      const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) return errno;
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+    return 0;
+  }
+  int close() { return ::close(std::exchange(descriptor_, -1)) == 0 ? 0 : errno; }
+
+ private:
+  std::string path_;
+  int descriptor_;
+  bool temporary_ = false;
+};
+
+// The descriptor that /dev/stdout, /dev/stderr or /dev/fd/N stands for.
+std::optional<int> standing_descriptor(std::string_view path) {
+  if (path == "/dev/stdout") return STDOUT_FILENO;
+  if (path == "/dev/stderr") return STDERR_FILENO;
+  constexpr std::string_view kPrefix = "/dev/fd/";
+  if (path.substr(0, kPrefix.size()) != kPrefix) return std::nullopt;
+  path.remove_prefix(kPrefix.size());
+  int descriptor = -1;
+  const auto [end, error] = std::from_chars(path.data(), path.data() + path.size(), descriptor);
+  if (error != std::errc() || end != path.data() + path.size()) return std::nullopt;
+  return descriptor;
+}
+
+void write_in_place(const std::string& path, int descriptor, std::string_view bytes) {
+  if (descriptor < 0) fail(path, errno);
+  Output output(path, descriptor);
+  if (const int reason = output.write(bytes)) fail(path, reason);
+  if (const int reason = output.close()) fail(path, reason);
+}
+
+// O_EXCL with a name that cannot be guessed: nobody can put a link there first. The mode lets umask act.
+int open_temporary(const std::string& folder, std::string* name) {
+  std::random_device device;
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    *name = fmt::format("{}/.wilt-{:08x}{:08x}.tmp", folder, device(), device());
+    const int descriptor = ::open(name->c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0 || errno != EEXIST) return descriptor;
+  }
+  return -1;
+}
+
+void replace_file(const std::string& path, const std::string& target, std::optional<mode_t> mode,
+                  std::string_view bytes) {
+  std::string name;
+  const int descriptor = open_temporary(folder_of(target), &name);
+  if (descriptor < 0) fail(path, errno);
+  Output output(name, descriptor);
+  output.mark_temporary();
+  if (mode && ::fchmod(descriptor, *mode) != 0) fail(path, errno);
+  if (const int reason = output.write(bytes)) fail(path, reason);
+  if (::fsync(descriptor) != 0) fail(path, errno);
+  if (const int reason = output.close()) fail(path, reason);
+  if (::rename(name.c_str(), target.c_str()) != 0) fail(path, errno);
+  output.kept();
+}
+
+}  // namespace
+
+void write_file(const std::string& path, std::string_view bytes) {
+  if (const auto descriptor = standing_descriptor(path))
+    return write_in_place(path, ::dup(*descriptor), bytes);
+  struct stat status;
+  if (::stat(path.c_str(), &status) != 0) {
+    if (errno != ENOENT) fail(path, errno);
+    return replace_file(path, path, std::nullopt, bytes);
+  }
+  // Opening it says whether we may write there at all: rename would not ask.
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (!S_ISREG(status.st_mode)) return write_in_place(path, descriptor, bytes);
+  if (descriptor < 0) fail(path, errno);
+  ::close(descriptor);
+  replace_file(path, std::filesystem::canonical(path).string(), status.st_mode & 07777, bytes);
+}
+
+std::string read_file(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const auto fail_reading = [&](int reason) {
+    throw Error(ErrorCode::input, fmt::format("cannot read '{}': {}: check the path and its permissions",
+                                              path, std::strerror(reason)));
+  };
+  if (descriptor < 0) fail_reading(errno);
+  const Output input(path, descriptor);
+  std::string bytes;
+  std::string block(std::size_t{1} << 20, '\0');
+  while (true) {
+    const ssize_t count = ::read(descriptor, block.data(), block.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail_reading(errno);
+    if (count == 0) return bytes;
+    bytes.append(block, 0, static_cast<std::size_t>(count));
+  }
+}
+
+}  // namespace wilt

@@ -1,0 +1,21 @@
+// Files, whole or not at all.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace wilt {
+
+/// Writes `bytes` to the file `path`, whole or not at all.
+///
+/// A regular file is written under an unpredictable name in the same folder, flushed to the disk and renamed,
+/// so that a reader sees the old file or the new one; an existing file keeps its permissions, a new one
+/// follows the umask; a symbolic link is followed. A pipe or a device is written in place, and so are
+/// /dev/stdout, /dev/stderr and /dev/fd/N. Throws Error{output} with the path, the reason and what to do;
+/// then no temporary file is left.
+void write_file(const std::string& path, std::string_view bytes);
+
+/// All bytes of the file `path`. Throws Error{input} with the path and the reason.
+std::string read_file(const std::string& path);
+
+}  // namespace wilt

@@ -1,0 +1,63 @@
+#include "wilt/output/glb_extras.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "wilt/output/coordinates.hpp"
+#include "wilt/output/vein_lines.hpp"
+#include "wilt/output/version.hpp"
+
+namespace wilt {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Nine decimals: a nanometre.
+Json rounded(const Points3& points) {
+  Json rows = Json::array();
+  for (int i = 0; i < points.rows(); ++i) {
+    Json row = Json::array();
+    for (int c = 0; c < 3; ++c) row.push_back(std::round(points(i, c) * 1e9) / 1e9);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Json veins_json(const GlbScene& scene) {
+  Json veins = Json::array();
+  if (scene.venation == nullptr) return veins;
+  const std::vector<VeinLine> lines = vein_lines(scene.leaf, *scene.venation);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::vector<SurfacePoint>& path = scene.venation->veins[i].path.points;
+    std::vector<int> faces;
+    Points3 barycentric(static_cast<int>(path.size()), 3);
+    for (const SurfacePoint& point : path) {
+      barycentric.row(static_cast<int>(faces.size())) = point.barycentric;
+      faces.push_back(point.face);
+    }
+    veins.push_back({{"order", lines[i].order},
+                     {"positions", rounded(file_points(scene.leaf.placement, lines[i].positions))},
+                     {"faces", faces},
+                     {"barycentric", rounded(barycentric)}});
+  }
+  return veins;
+}
+
+}  // namespace
+
+std::string glb_extras(const GlbScene& scene) {
+  Json frames = Json::array();
+  for (const Frame& frame : scene.frames) frames.push_back(frame.iteration);
+  const Leaf& leaf = scene.leaf;
+  const Json extras = {{"version", version()},
+                       {"config", Json::parse(scene.config)},
+                       {"leaf", {{"name", leaf.name}, {"species", leaf.species}, {"seed", leaf.seed}}},
+                       {"units", unit_name(leaf.placement)},
+                       {"metres_per_unit", metres_per_unit(leaf.placement)},
+                       {"up", "Y"},
+                       {"frames", frames},
+                       {"veins", veins_json(scene)}};
+  return extras.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace wilt

@@ -1,0 +1,82 @@
+// glTF binary (GLB): the withering leaf as morph targets with the animation that plays them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wilt/leaf/leaf.hpp"
+#include "wilt/simulation/result.hpp"
+#include "wilt/venation/venation.hpp"
+
+namespace wilt {
+
+/// What goes into a GLB. Only refers to `leaf`, `frames` and `venation`: they must outlive it.
+struct GlbScene {
+  const Leaf& leaf;
+  const std::vector<Frame>& frames;    ///< >= 1, iterations ascending; the first is the base of the targets
+  const Venation* venation = nullptr;  ///< its veins go into asset.extras, at rest
+  std::string config = "{}";           ///< JSON text of the resolved configuration
+  /// sRGB 0 to 1 (clipped), #V x 3 of the blade: none (white), one (shown throughout: the final state), or
+  /// one per frame (colour morphs).
+  std::vector<Points3> colours;
+  std::vector<Vec3> stalk_colours;  ///< sRGB 0 to 1, of the whole stalk: none, one, or one per frame
+  std::string texture;              ///< bytes of a PNG or JPEG that multiplies the colours; empty: white
+};
+
+struct GlbOptions {
+  double seconds = 4.0;   ///< length of the clip, > 0; time is proportional to the iteration
+  int stalk_sides = 10;   ///< corners per ring of the stalk, 3 to 64
+  void validate() const;  ///< throws Error{configuration}
+};
+
+/// The leaf alone, as the one frame of a scene: rest positions and stalk, no water.
+std::vector<Frame> rest_frames(const Leaf& leaf);
+
+/// The scene as bytes of a glTF 2.0 binary.
+///
+/// Nodes "blade" (the leaf's skin: POSITION, NORMAL, TEXCOORD_0, COLOR_0 linear, _WATER = w / m at the last
+/// frame) and "stalk" (a tube, when the leaf has one): #frames - 1 morph targets each (POSITION, NORMAL and,
+/// given colours per frame, COLOR_0) and one animation of their weights, linear between one-hot keys: playing
+/// it is piecewise linear between frames. Coordinates as in coordinates.hpp. asset.extras.wilt: version,
+/// config, leaf, units, metres_per_unit, up, frames (iterations), veins (order, positions, and the face of
+/// the blade and the barycentric coordinates of every point, so that they can follow the blade). The same
+/// scene gives the same bytes. Throws Error{output} above the 4 GB of the format, std::logic_error for wrong
+/// sizes or positions that are not finite. O(#frames #V).
+std::string glb_bytes(const GlbScene& scene, const GlbOptions& options = {});
+
+/// The same into a file, by write_file().
+void write_glb(const std::string& path, const GlbScene& scene, const GlbOptions& options = {});
+
+/// A mesh of a GLB that wilt wrote; every frame as absolute values. Coordinates of the file, Y up.
+struct GlbMesh {
+  std::string name;              ///< "blade" or "stalk"
+  std::vector<Points3> frames;   ///< positions, #S x 3 each
+  std::vector<Points3> normals;  ///< #S x 3 each
+  std::vector<Points3> colours;  ///< linear, #S x 3: none, one, or one per frame
+  Points2 uv;                    ///< #S x 2, or empty
+  Eigen::VectorXd water;         ///< #S, w / m at the last frame, or empty
+  Faces faces;                   ///< #F x 3
+};
+
+struct GlbVein {
+  int order = 1;
+  Points3 positions;       ///< #P x 3, at rest, coordinates of the file
+  std::vector<int> faces;  ///< #P, rows of the blade's faces
+  Points3 barycentric;     ///< #P x 3
+};
+
+struct GlbFile {
+  std::vector<GlbMesh> meshes;  ///< the blade, then the stalk if there is one
+  std::vector<double> times;    ///< seconds, one per frame (one frame: 0)
+  std::vector<int> iterations;  ///< one per frame
+  std::vector<GlbVein> veins;
+  std::string generator;  ///< "wilt 0.1.0"
+  std::string extras;     ///< JSON text of asset.extras.wilt
+};
+
+/// Reads what write_glb() wrote. Throws Error{input}, naming `name` (the path), for anything else.
+GlbFile parse_glb(std::string_view bytes, const std::string& name);
+GlbFile read_glb(const std::string& path);
+
+}  // namespace wilt

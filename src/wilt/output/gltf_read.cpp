@@ -1,0 +1,210 @@
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "wilt/core/error.hpp"
+#include "wilt/output/file.hpp"
+#include "wilt/output/glb_container.hpp"
+#include "wilt/output/gltf.hpp"
+
+namespace wilt {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Values = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+[[noreturn]] void refuse(const std::string& reason) {
+  throw Error(ErrorCode::input, reason + "; give a .glb that wilt wrote");
+}
+
+/// Checked access to the arrays of a model that may hold anything.
+class Model {
+ public:
+  explicit Model(const tinygltf::Model& model) : model_(model) {}
+
+  template <class Items>
+  static const auto& at(const Items& items, int index, const char* what) {
+    if (index < 0 || index >= static_cast<int>(items.size()))
+      refuse(fmt::format("it refers to {} {} of {}", what, index, items.size()));
+    return items[static_cast<std::size_t>(index)];
+  }
+
+  /// float32 rows of `columns` numbers.
+  Values floats(int accessor, int columns) const {
+    const std::vector<float> values = raw<float>(accessor, TINYGLTF_COMPONENT_TYPE_FLOAT, columns);
+    return Eigen::Map<const Eigen::Matrix<float, -1, -1, Eigen::RowMajor>>(
+               values.data(), static_cast<int>(values.size()) / columns, columns)
+        .cast<double>();
+  }
+
+  Faces triangles(int accessor, int vertices) const {
+    const auto indices = raw<std::uint32_t>(accessor, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, 1);
+    Faces faces(static_cast<int>(indices.size() / 3), 3);
+    for (int i = 0; i < faces.size(); ++i) {
+      const std::uint32_t index = indices[static_cast<std::size_t>(i)];
+      if (index >= static_cast<std::uint32_t>(vertices))
+        refuse(fmt::format("a face has vertex {} of {}", index, vertices));
+      faces(i / 3, i % 3) = static_cast<int>(index);
+    }
+    return faces;
+  }
+
+ private:
+  // The values of a tightly packed accessor.
+  template <class T>
+  std::vector<T> raw(int index, int component_type, int columns) const {
+    const tinygltf::Accessor& accessor = at(model_.accessors, index, "accessor");
+    const int width = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+    if (accessor.componentType != component_type || width != columns || accessor.sparse.isSparse)
+      refuse(fmt::format("accessor {} is not of the kind that wilt writes", index));
+    const tinygltf::BufferView& view = at(model_.bufferViews, accessor.bufferView, "buffer view");
+    const std::vector<unsigned char>& data = at(model_.buffers, view.buffer, "buffer").data;
+    const std::size_t count = accessor.count * static_cast<std::size_t>(columns);
+    if (view.byteStride != 0 || accessor.byteOffset != 0 || view.byteOffset > data.size() ||
+        accessor.count > data.size() || count > (data.size() - view.byteOffset) / sizeof(T))
+      refuse(fmt::format("accessor {} reaches beyond the file's data", index));
+    std::vector<T> values(count);
+    if (count > 0) std::memcpy(values.data(), data.data() + view.byteOffset, count * sizeof(T));
+    return values;
+  }
+
+  const tinygltf::Model& model_;
+};
+
+int attribute(const std::map<std::string, int>& attributes, const std::string& name) {
+  const auto found = attributes.find(name);
+  return found == attributes.end() ? -1 : found->second;
+}
+
+// The base and then base + target for every morph target that has the attribute.
+std::vector<Points3> morphed(const Model& model, const tinygltf::Primitive& primitive,
+                             const std::string& name) {
+  const Points3 base = model.floats(attribute(primitive.attributes, name), 3);
+  std::vector<Points3> frames{base};
+  for (const auto& target : primitive.targets) {
+    const int accessor = attribute(target, name);
+    if (accessor < 0) continue;
+    const Points3 difference = model.floats(accessor, 3);
+    if (difference.rows() != base.rows()) refuse("a morph target differs in size from its mesh");
+    frames.push_back(base + difference);
+  }
+  return frames;
+}
+
+GlbMesh read_mesh(const Model& model, const tinygltf::Mesh& mesh) {
+  if (mesh.primitives.size() != 1) refuse(fmt::format("mesh '{}' has several parts", mesh.name));
+  const tinygltf::Primitive& primitive = mesh.primitives.front();
+  GlbMesh result;
+  result.name = mesh.name;
+  result.frames = morphed(model, primitive, "POSITION");
+  result.normals = morphed(model, primitive, "NORMAL");
+  const int vertices = static_cast<int>(result.frames.front().rows());
+  if (attribute(primitive.attributes, "COLOR_0") >= 0) result.colours = morphed(model, primitive, "COLOR_0");
+  if (const int uv = attribute(primitive.attributes, "TEXCOORD_0"); uv >= 0) result.uv = model.floats(uv, 2);
+  if (const int water = attribute(primitive.attributes, "_WATER"); water >= 0)
+    result.water = model.floats(water, 1);
+  result.faces = model.triangles(primitive.indices, vertices);
+  const auto fits = [vertices](Eigen::Index rows) { return rows == 0 || rows == vertices; };
+  if (result.normals.front().rows() != vertices || !fits(result.uv.rows()) || !fits(result.water.size()) ||
+      (!result.colours.empty() && !fits(result.colours.front().rows())) ||
+      result.normals.size() != result.frames.size())
+    refuse(fmt::format("the attributes of mesh '{}' differ in size", mesh.name));
+  return result;
+}
+
+std::vector<double> read_times(const Model& model, const tinygltf::Model& gltf) {
+  if (gltf.animations.empty()) return {0.0};
+  const tinygltf::AnimationSampler& sampler = Model::at(gltf.animations.front().samplers, 0, "sampler");
+  const Values times = model.floats(sampler.input, 1);
+  return {times.data(), times.data() + times.size()};
+}
+
+Points3 points_from(const Json& rows) {
+  Points3 points(static_cast<int>(rows.size()), 3);
+  for (int i = 0; i < points.rows(); ++i) {
+    for (int c = 0; c < 3; ++c)
+      points(i, c) = rows.at(static_cast<std::size_t>(i)).at(static_cast<std::size_t>(c)).get<double>();
+  }
+  return points;
+}
+
+void read_extras(const Json& document, GlbFile& file) {
+  const Json& extras = document["asset"]["extras"]["wilt"];
+  file.generator = document["asset"].at("generator").get<std::string>();
+  file.extras = extras.dump();
+  file.iterations = extras.at("frames").get<std::vector<int>>();
+  const int faces = static_cast<int>(file.meshes.front().faces.rows());
+  for (const Json& vein : extras.at("veins")) {
+    GlbVein read{vein.at("order").get<int>(), points_from(vein.at("positions")),
+                 vein.at("faces").get<std::vector<int>>(), points_from(vein.at("barycentric"))};
+    const auto points = static_cast<std::size_t>(read.positions.rows());
+    if (read.faces.size() != points || static_cast<std::size_t>(read.barycentric.rows()) != points)
+      refuse("the lists of a vein differ in length");
+    for (const int face : read.faces) {
+      if (face < 0 || face >= faces) refuse(fmt::format("a vein lies in face {} of {}", face, faces));
+    }
+    file.veins.push_back(std::move(read));
+  }
+}
+
+// Textures are kept as they are.
+bool accept_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*,
+                  int, void*) {
+  return true;
+}
+
+tinygltf::Model load(std::string_view bytes) {
+  if (bytes.size() > std::numeric_limits<unsigned int>::max()) refuse("it is larger than a GLB can be");
+  tinygltf::TinyGLTF loader;
+  loader.SetImageLoader(accept_image, nullptr);
+  tinygltf::Model model;
+  std::string errors, warnings;
+  if (!loader.LoadBinaryFromMemory(&model, &errors, &warnings,
+                                   reinterpret_cast<const unsigned char*>(bytes.data()),
+                                   static_cast<unsigned int>(bytes.size())))
+    refuse(errors.substr(0, errors.find('\n')));
+  return model;
+}
+
+GlbFile read_all(std::string_view bytes, std::string_view json) {
+  const Json document = Json::parse(json);
+  if (!document.contains("/asset/extras/wilt"_json_pointer)) refuse("asset.extras.wilt is missing");
+  const tinygltf::Model gltf = load(bytes);
+  const Model model(gltf);
+  GlbFile file;
+  for (const tinygltf::Mesh& mesh : gltf.meshes) file.meshes.push_back(read_mesh(model, mesh));
+  if (file.meshes.empty()) refuse("it has no mesh");
+  file.times = read_times(model, gltf);
+  read_extras(document, file);
+  for (const GlbMesh& mesh : file.meshes) {
+    if (mesh.frames.size() != file.times.size() || mesh.frames.size() != file.iterations.size()) {
+      refuse(fmt::format("mesh '{}' has {} frames, {} key times and {} iterations", mesh.name,
+                         mesh.frames.size(), file.times.size(), file.iterations.size()));
+    }
+  }
+  return file;
+}
+
+}  // namespace
+
+GlbFile parse_glb(std::string_view bytes, const std::string& name) {
+  const std::string_view json = glb_json(bytes, name);
+  try {
+    return read_all(bytes, json);
+  } catch (const Error& error) {
+    throw Error(ErrorCode::input, fmt::format("'{}' is not a leaf that wilt wrote: {}", name, error.what()));
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(ErrorCode::input,
+                fmt::format("'{}' is not a leaf that wilt wrote: {}; give a .glb that wilt wrote", name,
+                            error.what()));
+  }
+}
+
+GlbFile read_glb(const std::string& path) {
+  return parse_glb(read_file(path), path);
+}
+
+}  // namespace wilt

@@ -1,0 +1,261 @@
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "wilt/core/check.hpp"
+#include "wilt/core/error.hpp"
+#include "wilt/output/file.hpp"
+#include "wilt/output/glb_container.hpp"
+#include "wilt/output/glb_extras.hpp"
+#include "wilt/output/gltf.hpp"
+#include "wilt/output/moving.hpp"
+#include "wilt/output/version.hpp"
+
+namespace wilt {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Floats = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Fills the binary chunk and the accessors that describe it.
+class Builder {
+ public:
+  tinygltf::Model model;
+  std::string binary;
+
+  int add_view(const void* data, std::size_t size, int target) {
+    binary.resize((binary.size() + 3) / 4 * 4, '\0');
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = binary.size();
+    view.byteLength = size;
+    view.target = target;
+    binary.append(static_cast<const char*>(data), size);
+    model.bufferViews.push_back(view);
+    return static_cast<int>(model.bufferViews.size()) - 1;
+  }
+
+  /// #N x (1, 2 or 3) values; the format asks for bounds of positions and of key times.
+  int add_floats(const Floats& values, int target, bool bounds) {
+    static constexpr std::array<int, 3> kTypes{TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3};
+    tinygltf::Accessor accessor;
+    accessor.bufferView =
+        add_view(values.data(), static_cast<std::size_t>(values.size()) * sizeof(float), target);
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+    accessor.type = kTypes.at(static_cast<std::size_t>(values.cols()) - 1);
+    accessor.count = static_cast<std::size_t>(values.rows());
+    for (int c = 0; bounds && c < values.cols(); ++c) {
+      accessor.minValues.push_back(values.col(c).minCoeff());
+      accessor.maxValues.push_back(values.col(c).maxCoeff());
+    }
+    return add_accessor(accessor);
+  }
+
+  int add_indices(const Faces& faces) {
+    const Eigen::Matrix<std::uint32_t, Eigen::Dynamic, 3, Eigen::RowMajor> indices =
+        faces.cast<std::uint32_t>();
+    tinygltf::Accessor accessor;
+    accessor.bufferView = add_view(indices.data(), static_cast<std::size_t>(indices.size()) * 4,
+                                   TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    accessor.type = TINYGLTF_TYPE_SCALAR;
+    accessor.count = static_cast<std::size_t>(indices.size());
+    return add_accessor(accessor);
+  }
+
+ private:
+  int add_accessor(const tinygltf::Accessor& accessor) {
+    model.accessors.push_back(accessor);
+    return static_cast<int>(model.accessors.size()) - 1;
+  }
+};
+
+// A viewer adds the difference to the float32 base, so it is taken from that: no error adds up.
+Floats difference(const Points3& values, const Floats& base) {
+  return (values - base.cast<double>()).cast<float>();
+}
+
+void add_mesh(Builder& builder, const Moving& moving, const std::vector<Frame>& frames, int material) {
+  constexpr int kTarget = TINYGLTF_TARGET_ARRAY_BUFFER;
+  const Shape rest = moving.shape(0);
+  const Floats positions = rest.positions.cast<float>(), normals = rest.normals.cast<float>();
+  Floats colours;
+  tinygltf::Primitive primitive;
+  primitive.mode = TINYGLTF_MODE_TRIANGLES;
+  primitive.material = material;
+  primitive.attributes["POSITION"] = builder.add_floats(positions, kTarget, true);
+  primitive.attributes["NORMAL"] = builder.add_floats(normals, kTarget, false);
+  if (moving.uv.rows() > 0)
+    primitive.attributes["TEXCOORD_0"] = builder.add_floats(moving.uv.cast<float>(), kTarget, false);
+  if (moving.colour_count > 0) {
+    colours = moving.colours(0).cast<float>();
+    primitive.attributes["COLOR_0"] = builder.add_floats(colours, kTarget, false);
+  }
+  if (moving.water.size() > 0)
+    primitive.attributes["_WATER"] = builder.add_floats(moving.water.cast<float>(), kTarget, false);
+  primitive.indices = builder.add_indices(moving.faces);
+
+  std::vector<tinygltf::Value> names;
+  for (int k = 1; k < static_cast<int>(frames.size()); ++k) {
+    const Shape shape = moving.shape(k);
+    std::map<std::string, int> target;
+    target["POSITION"] = builder.add_floats(difference(shape.positions, positions), kTarget, true);
+    target["NORMAL"] = builder.add_floats(difference(shape.normals, normals), kTarget, false);
+    if (moving.colour_count > 1)
+      target["COLOR_0"] = builder.add_floats(difference(moving.colours(k), colours), kTarget, false);
+    primitive.targets.push_back(target);
+    names.emplace_back(fmt::format("iteration {}", frames[static_cast<std::size_t>(k)].iteration));
+  }
+  tinygltf::Mesh mesh;
+  mesh.name = moving.name;
+  mesh.primitives = {primitive};
+  // The names of the targets stand where Blender and three.js look for them.
+  if (!names.empty())
+    mesh.extras = tinygltf::Value(tinygltf::Value::Object{{"targetNames", tinygltf::Value(names)}});
+  builder.model.meshes.push_back(mesh);
+
+  tinygltf::Node node;
+  node.name = moving.name;
+  node.mesh = static_cast<int>(builder.model.meshes.size()) - 1;
+  builder.model.nodes.push_back(node);
+  builder.model.scenes.front().nodes.push_back(node.mesh);
+}
+
+// Key frame k shows frame k: the weight of target k - 1 is one there, all others are zero.
+void add_animation(Builder& builder, const std::vector<Frame>& frames, double seconds) {
+  const int count = static_cast<int>(frames.size());
+  if (count < 2) return;
+  const double first = frames.front().iteration, last = frames.back().iteration;
+  Floats times(count, 1), weights = Floats::Zero(count * (count - 1), 1);
+  for (int k = 0; k < count; ++k) {
+    times(k) = static_cast<float>(seconds * (frames[static_cast<std::size_t>(k)].iteration - first) /
+                                  (last - first));
+    if (k > 0) weights(k * (count - 1) + k - 1) = 1.0F;
+  }
+  tinygltf::AnimationSampler sampler;
+  sampler.input = builder.add_floats(times, 0, true);
+  sampler.output = builder.add_floats(weights, 0, false);
+  sampler.interpolation = "LINEAR";
+  tinygltf::Animation animation;
+  animation.name = "withering";
+  animation.samplers = {sampler};
+  for (int node = 0; node < static_cast<int>(builder.model.nodes.size()); ++node) {
+    tinygltf::AnimationChannel channel;
+    channel.sampler = 0;
+    channel.target_node = node;
+    channel.target_path = "weights";
+    animation.channels.push_back(channel);
+  }
+  builder.model.animations = {animation};
+}
+
+// A PNG of one white pixel: makes the texture coordinates count, and holds the place for a texture.
+std::string white_pixel() {
+  static constexpr std::array<unsigned char, 69> kPng{
+      0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48,
+      0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00,
+      0x00, 0x90, 0x77, 0x53, 0xde, 0x00, 0x00, 0x00, 0x0c, 0x49, 0x44, 0x41, 0x54, 0x78,
+      0xda, 0x63, 0xf8, 0xff, 0xff, 0x3f, 0x00, 0x05, 0xfe, 0x02, 0xfe, 0x33, 0x12, 0x95,
+      0x14, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+  return std::string(kPng.begin(), kPng.end());
+}
+
+int add_material(Builder& builder, const std::string& name) {
+  tinygltf::Material material;
+  material.name = name;
+  material.doubleSided = true;
+  material.pbrMetallicRoughness.metallicFactor = 0.0;
+  material.pbrMetallicRoughness.roughnessFactor = 0.7;
+  builder.model.materials.push_back(material);
+  return static_cast<int>(builder.model.materials.size()) - 1;
+}
+
+void add_texture(Builder& builder, const std::string& bytes, int material) {
+  tinygltf::Image image;
+  image.name = "blade";
+  image.mimeType = bytes.substr(0, 2) == "\xff\xd8" ? "image/jpeg" : "image/png";
+  image.bufferView = builder.add_view(bytes.data(), bytes.size(), 0);
+  builder.model.images.push_back(image);
+  tinygltf::Texture texture;
+  texture.source = 0;
+  builder.model.textures.push_back(texture);
+  builder.model.materials[static_cast<std::size_t>(material)].pbrMetallicRoughness.baseColorTexture.index = 0;
+}
+
+// tinygltf writes the model. The extras are put in here, since its values have no 64-bit integers (seeds) and
+// no order of keys; so is the buffer, which it would copy.
+std::string serialise(Builder& builder, const std::string& extras) {
+  std::ostringstream text;
+  tinygltf::TinyGLTF().WriteGltfSceneToStream(&builder.model, text, false, false);
+  Json document = Json::parse(text.str());
+  document["asset"]["extras"] = {{"wilt", Json::parse(extras)}};
+  document["buffers"] = Json::array({{{"byteLength", builder.binary.size()}}});
+  return join_glb(document.dump(-1, ' ', false, Json::error_handler_t::replace), builder.binary);
+}
+
+void check_scene(const GlbScene& scene) {
+  const std::size_t frames = scene.frames.size();
+  WILT_CHECK(frames >= 1, frames);
+  WILT_CHECK(scene.colours.size() <= 1 || scene.colours.size() == frames, scene.colours.size(), frames);
+  WILT_CHECK(scene.stalk_colours.size() <= 1 || scene.stalk_colours.size() == frames,
+             scene.stalk_colours.size(), frames);
+  const int vertices = scene.leaf.mesh.num_vertices();
+  WILT_CHECK(Json::accept(scene.config), scene.config);
+  for (const Points3& colours : scene.colours)
+    WILT_CHECK(colours.rows() == vertices, colours.rows(), vertices);
+  for (std::size_t k = 0; k < frames; ++k) {
+    const Frame& frame = scene.frames[k];
+    WILT_CHECK(frame.positions.rows() == vertices, k, frame.positions.rows(), vertices);
+    WILT_CHECK(frame.positions.allFinite() && frame.stalk.allFinite(), k, frame.iteration);
+    WILT_CHECK(frame.stalk.rows() == scene.frames[0].stalk.rows(), k, frame.stalk.rows());
+    WILT_CHECK(k == 0 || frame.iteration > scene.frames[k - 1].iteration, k, frame.iteration);
+  }
+}
+
+}  // namespace
+
+void GlbOptions::validate() const {
+  if (!(seconds > 0.0 && std::isfinite(seconds))) {
+    throw Error(ErrorCode::configuration,
+                fmt::format("seconds is {}: the length of the clip must be above 0", seconds));
+  }
+  if (stalk_sides < 3 || stalk_sides > 64) {
+    throw Error(ErrorCode::configuration,
+                fmt::format("stalk_sides is {}: a stalk has 3 to 64 sides", stalk_sides));
+  }
+}
+
+std::vector<Frame> rest_frames(const Leaf& leaf) {
+  Frame frame;
+  frame.positions = leaf.positions;
+  frame.stalk = leaf.stalk.centreline;
+  return {frame};
+}
+
+std::string glb_bytes(const GlbScene& scene, const GlbOptions& options) {
+  options.validate();
+  check_scene(scene);
+  Builder builder;
+  builder.model.asset.generator = fmt::format("wilt {}", version());
+  builder.model.asset.version = "2.0";
+  builder.model.scenes.emplace_back();
+  builder.model.defaultScene = 0;
+  const int blade = add_material(builder, "blade");
+  add_mesh(builder, moving_blade(scene), scene.frames, blade);
+  add_texture(builder, scene.texture.empty() ? white_pixel() : scene.texture, blade);
+  if (scene.frames.front().stalk.rows() >= 2)
+    add_mesh(builder, moving_stalk(scene, options.stalk_sides), scene.frames, add_material(builder, "stalk"));
+  add_animation(builder, scene.frames, options.seconds);
+  return serialise(builder, glb_extras(scene));
+}
+
+void write_glb(const std::string& path, const GlbScene& scene, const GlbOptions& options) {
+  write_file(path, glb_bytes(scene, options));
+}
+
+}  // namespace wilt

@@ -1,0 +1,33 @@
+// The meshes of a GLB, frame by frame, in the coordinates of the file.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "wilt/output/gltf.hpp"
+
+namespace wilt {
+
+/// The positions and unit normals of a mesh at a frame, #S x 3, coordinates of the file.
+struct Shape {
+  Points3 positions, normals;
+};
+
+/// A mesh to be written: what does not change, and its shape and linear colours (#S x 3) by frame.
+struct Moving {
+  std::string name;
+  Faces faces;
+  Points2 uv;             ///< or empty
+  Eigen::VectorXd water;  ///< or empty
+  int colour_count = 0;   ///< 0, 1 or one per frame
+  std::function<Shape(int frame)> shape;
+  std::function<Points3(int frame)> colours;
+};
+
+/// The leaf's skin. Refers to the scene.
+Moving moving_blade(const GlbScene& scene);
+
+/// The stalk as a tube. Refers to the scene, whose frames have a stalk of two points or more.
+Moving moving_stalk(const GlbScene& scene, int sides);
+
+}  // namespace wilt

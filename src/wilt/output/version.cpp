@@ -1,0 +1,9 @@
+#include "wilt/output/version.hpp"
+
+namespace wilt {
+
+const char* version() {
+  return WILT_VERSION;
+}
+
+}  // namespace wilt
