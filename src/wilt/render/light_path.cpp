@@ -88,7 +88,7 @@ double LightPath::ground_presence(const Vec3& p) const {
 
 Vec3 LightPath::sunlight(const ShadingPoint& point, const Vec3& view, bool first, Sampler& sampler) const {
   const Sun& sun = options_.lighting.sun;
-  const Vec2 u = sampler.next2();
+  const Vec2 u = sampler.next();
   const double cosine = point.normal.dot(sun_direction_);
   const bool in_front = cosine > 0.0;
   const Vec3& tissue = in_front ? point.reflectance : point.transmittance;
@@ -106,13 +106,14 @@ Vec3 LightPath::sunlight(const ShadingPoint& point, const Vec3& view, bool first
 
 std::optional<LightPath::Bounce> LightPath::next_bounce(const ShadingPoint& point, const Vec3& view,
                                                         bool first, Sampler& sampler) const {
-  const double choice = sampler.next();
-  const Vec2 u = sampler.next2();
+  Vec2 u = sampler.next();
   const Frame3 frame(point.normal);
   const double share = coat_share(point, view, first);
   // Grazing reflections are bright and few: at least a tenth of the rays go to the coat.
   const double p_coat = share > 0.0 ? std::clamp(share, 0.1, 0.5) : 0.0;
-  if (choice < p_coat) {
+  // u.x chooses the lobe and is stretched afterwards, so that the points stay well spread within each.
+  if (u.x() < p_coat) {
+    u.x() /= p_coat;
     const Vec3 local(view.dot(frame.s), view.dot(frame.t), std::max(view.dot(frame.n), 1e-3));
     const Vec3 h = frame.to_world(sample_visible_normal(u, local.normalized(), point.roughness));
     const Vec3 direction = (2.0 * h.dot(view) * h - view).normalized();
@@ -125,11 +126,14 @@ std::optional<LightPath::Bounce> LightPath::next_bounce(const ShadingPoint& poin
   }
   const double r = luminance(point.reflectance), t = luminance(point.transmittance);
   if (r + t <= 0.0) return std::nullopt;
+  u.x() = (u.x() - p_coat) / (1.0 - p_coat);
   const double p_reflect = r / (r + t), passed = (1.0 - share) / (1.0 - p_coat);
-  const Vec3 direction = sample_cosine(u);
-  if ((choice - p_coat) / (1.0 - p_coat) < p_reflect)
-    return Bounce{{point.front, frame.to_world(direction)}, passed / p_reflect * point.reflectance};
-  return Bounce{{point.back, frame.to_world(-direction)}, passed / (1.0 - p_reflect) * point.transmittance};
+  const bool reflected = u.x() < p_reflect;
+  const double chance = reflected ? p_reflect : 1.0 - p_reflect;
+  u.x() = reflected ? u.x() / chance : (u.x() - p_reflect) / chance;
+  const Vec3 direction = frame.to_world(sample_cosine(u));
+  if (reflected) return Bounce{{point.front, direction}, passed / chance * point.reflectance};
+  return Bounce{{point.back, -direction}, passed / chance * point.transmittance};
 }
 
 Vec3 LightPath::radiance(Ray ray, Sampler& sampler) const {

@@ -71,15 +71,15 @@ DetailChart detail_chart(const Surface& surface, const Hit& hit, const Corners& 
 
 // A vein is a ridge on both sides, pale and hardly translucent. Profile: (1 - (d / reach r)^2)^2.
 void add_vein(ShadingPoint& point, const World& world, const Vec3& p, Vec3& slope) {
-  constexpr double kReach = 2.6, kHeight = 0.9;  // in radii
+  constexpr double kReach = 2.4, kHeight = 1.1;  // in radii
   const auto vein = world.nearest_vein(p, kReach);
   if (!vein) return;
   const double x = vein->distance / (kReach * vein->radius), ridge = (1.0 - x * x) * (1.0 - x * x);
   slope -= (kHeight / kReach * 4.0 * x * (1.0 - x * x)) * vein->away;
   const VeinLine& line = world.scene().veins[vein->vein];
-  const double cover = 0.8 * smooth_step(0.05, 0.75, ridge);
+  const double cover = 0.62 * smooth_step(0.15, 0.9, ridge);
   point.reflectance += cover * (line.colour - point.reflectance);
-  point.transmittance *= 1.0 - 0.75 * cover;
+  point.transmittance *= 1.0 - 0.6 * cover;
 }
 
 void add_fine_detail(ShadingPoint& point, const DetailChart& chart, double strength, std::uint64_t seed,

@@ -56,7 +56,7 @@ Vec3 pixel_radiance(const LightPath& path, const Lens& lens, const PictureOption
   Vec3 sum = Vec3::Zero();
   for (int i = 0; i < options.samples; ++i) {
     Sampler sampler(hash, std::uint32_t(i), std::uint32_t(options.samples));
-    const Vec2 u = sampler.next2();
+    const Vec2 u = sampler.next();
     sum += path.radiance(lens.ray(x + 0.5 + tent(u.x()), y + 0.5 + tent(u.y())), sampler);
   }
   return sum / options.samples;

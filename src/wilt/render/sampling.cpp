@@ -41,17 +41,13 @@ std::uint64_t mix_hash(std::uint64_t hash, std::uint64_t value) {
   return z ^ (z >> 31);
 }
 
-Vec2 Sampler::next2() {
+Vec2 Sampler::next() {
   const std::uint64_t h = mix_hash(hash_, 2 * dimension_), g = mix_hash(hash_, 2 * dimension_ + 1);
   ++dimension_;
   const std::uint32_t i = nested_permutation(index_, std::uint32_t(h)) & mask_;
   const std::uint32_t x = nested_permutation(i, std::uint32_t(h >> 32));
   const std::uint32_t y = nested_permutation(reverse_bits(sobol_second(i)), std::uint32_t(g));
   return {reverse_bits(x) * 0x1.0p-32, reverse_bits(y) * 0x1.0p-32};
-}
-
-double Sampler::next() {
-  return next2().x();
 }
 
 Frame3::Frame3(const Vec3& unit_normal) : n(unit_normal) {

@@ -18,16 +18,15 @@ inline double hash_uniform(std::uint64_t hash) {
 
 /// The random numbers of one sample of one pixel.
 ///
-/// Each call gives the next dimension: the points of a pixel's samples in it are a scrambled (0,2)-sequence
-/// (B. Burley, "Practical Hash-based Owen Scrambling", JCGT 2020), in an order of its own.
+/// Each call gives the next pair of dimensions: the points of a pixel's samples in it are a scrambled
+/// (0,2)-sequence (B. Burley, "Practical Hash-based Owen Scrambling", JCGT 2020), in an order of its own.
 class Sampler {
  public:
   /// `pixel_hash` is mix_hash of the seed and the pixel; 0 <= index < count.
   Sampler(std::uint64_t pixel_hash, std::uint32_t index, std::uint32_t count)
       : hash_(pixel_hash), index_(index), mask_(std::bit_ceil(count) - 1) {}
 
-  Vec2 next2();
-  double next();
+  Vec2 next();  ///< in [0, 1)^2
 
  private:
   std::uint64_t hash_;

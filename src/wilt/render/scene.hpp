@@ -34,7 +34,7 @@ struct VeinLine {
   Points3 positions;                 ///< #K x 3, metres, K >= 2, on a leaf's surface
   double radius = 0.0;               ///< at the base, metres, > 0; a third of it at the end
   int order = 1;                     ///< 1: primary, 2: secondary
-  Vec3 colour = {0.50, 0.38, 0.19};  ///< linear RGB
+  Vec3 colour = {0.50, 0.36, 0.15};  ///< linear RGB
 };
 
 struct Scene {
@@ -45,15 +45,15 @@ struct Scene {
 /// A distant disc.
 struct Sun {
   Vec3 direction = {-0.62, 0.42, 0.58};  ///< towards the sun; any length but 0
-  double radius = 0.045;                 ///< angular, radians, in [0, 0.5]; the real one has 0.0047
-  Vec3 irradiance = {7.6, 6.5, 5.1};     ///< on a plane that faces it, linear RGB
+  double radius = 0.035;                 ///< angular, radians, in [0, 0.5]; the real one has 0.0047
+  Vec3 irradiance = {8.8, 7.4, 5.7};     ///< on a plane that faces it, linear RGB
 };
 
 /// A dome whose radiance changes linearly with the sine of the elevation between three heights.
 struct Sky {
-  Vec3 zenith = {0.66, 0.78, 0.98};
-  Vec3 horizon = {0.84, 0.86, 0.88};
-  Vec3 nadir = {0.42, 0.38, 0.33};
+  Vec3 zenith = {0.44, 0.54, 0.71};
+  Vec3 horizon = {0.58, 0.60, 0.63};
+  Vec3 nadir = {0.38, 0.34, 0.29};
 
   Vec3 radiance(const Vec3& unit_direction) const;
   /// What a white horizontal plane under the open sky reflects: its irradiance / pi.
