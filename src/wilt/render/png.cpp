@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 
-#include <fstream>
-#include <system_error>
-
 #include "wilt/core/error.hpp"
+#include "wilt/output/file.hpp"
 #include "wilt/render/image.hpp"
 
 #define STBI_WRITE_NO_STDIO
@@ -38,18 +36,7 @@ std::vector<std::uint8_t> encode_png(const Image& image) {
 
 void write_png(const std::filesystem::path& path, const Image& image) {
   const std::vector<std::uint8_t> bytes = encode_png(image);
-  const std::filesystem::path part = path.string() + ".part";
-  std::ofstream file(part, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  std::error_code error;
-  if (file) std::filesystem::rename(part, path, error);
-  if (!file || error) {
-    std::filesystem::remove(part, error);
-    throw Error(
-        ErrorCode::output,
-        fmt::format("{}: cannot be written; check that its folder exists and has room", path.string()));
-  }
+  write_file(path.string(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace wilt

@@ -50,10 +50,6 @@ Vec2 Sampler::next() {
   return {reverse_bits(x) * 0x1.0p-32, reverse_bits(y) * 0x1.0p-32};
 }
 
-double Sampler::next() {
-  return next2().x();
-}
-
 Frame3::Frame3(const Vec3& unit_normal) : n(unit_normal) {
   s = (std::abs(n.x()) > 0.7 ? Vec3::UnitY() : Vec3::UnitX()).cross(n).normalized();
   t = n.cross(s);
