@@ -25,10 +25,10 @@ inline Surface leaf(int rings, const LeafShape& shape = {}) {
   Points3 positions(first(rings + 1), 3);
   for (int r = 0; r <= rings; ++r) {
     for (int i = 0; i < std::max(1, 6 * r); ++i) {
-      const double jitter = r == rings ? 0.0 : 0.25 / rings;
+      const double jitter = r == rings ? 0.0 : 0.15 / rings;
       const double t = 2.0 * std::numbers::pi * i / std::max(1, 6 * r);
       const double s = static_cast<double>(r) / rings;
-      const double radius = s * (1.0 + s * s * shape.depth * std::cos(shape.lobes * t));
+      const double radius = s * (1.0 + shape.depth * std::cos(shape.lobes * t));
       const double x = radius * std::cos(t) + random.uniform(-jitter, jitter);
       const double y = radius * std::sin(t) + random.uniform(-jitter, jitter);
       positions.row(first(r) + i) << x, y,

@@ -14,6 +14,9 @@ constexpr int kCurve = -2;
 constexpr double kBend = 0.05;
 // A ray may miss the edge by this much of its length; the error is of second order in the miss.
 constexpr double kMiss = 1e-6;
+// A finished vertex is opened again only when its distance falls below this much of it: beyond an obtuse
+// corner the straight path may come later than one along an edge.
+constexpr double kGain = 1.0 - 1e-9;
 
 }  // namespace
 
@@ -71,7 +74,7 @@ double FastMarch::arrival_angle(VertexId v) const {
 
 void FastMarch::sweep(VertexId u) {
   mesh_.for_outgoing(u, [&](HalfedgeId h) {
-    if (!states_[mesh_.to(h)].finished) along_edge(h);
+    along_edge(h);
     if (mesh_.is_boundary(h)) return;
     // face(h) = (u, a, b): b across the edge u a, and a across the edge b u.
     across(h);
@@ -92,10 +95,10 @@ void FastMarch::along_edge(HalfedgeId h) {
   const VertexId u = mesh_.from(h), v = mesh_.to(h);
   const State& from = states_[u];
   const double distance = from.distance + unfolding_.length(h);
-  if (!(distance < states_[v].distance)) return;
+  if (!(distance < kGain * states_[v].distance)) return;
   State state;
   state.distance = distance;
-  const bool straight = bend(u, h) < kBend;
+  const bool straight = bend(u, h) < (mesh_.is_boundary(u) ? kMiss : kBend);
   state.root = straight ? from.root : int(u);
   state.offset = straight ? from.offset : from.distance;
   state.angle = unfolding_.angle(mesh_.twin(h));
@@ -104,17 +107,9 @@ void FastMarch::along_edge(HalfedgeId h) {
 
 // The vertex opposite h from the two vertices of h, of which one has just been finished.
 void FastMarch::across(HalfedgeId h) {
-  const VertexId u = mesh_.from(h), w = mesh_.to(h), v = mesh_.to(mesh_.next(h));
+  const VertexId u = mesh_.from(h), w = mesh_.to(h);
   const State &a = states_[u], &b = states_[w];
-  if (states_[v].finished) return;
-  if (!a.finished || !b.finished) {
-    // At an obtuse corner the path may arrive before both others are finished.
-    const HalfedgeFrame& frame = unfolding_.frame(h);
-    if (frame.apex.dot(frame.apex - Vec2(frame.length, 0.0)) >= 0.0) return;
-    const VertexId known = a.finished ? u : w;
-    if (states_[known].root == known) return;
-    return through(h, a.finished ? image_at_start(h) : image_at_end(h), known);
-  }
+  if (!a.finished || !b.finished) return;
   if (a.root == kCurve && b.root == kCurve) return curve(h);
   if (a.root != b.root) return two_roots(h);
   const double length = unfolding_.length(h);
@@ -133,7 +128,7 @@ void FastMarch::through(HalfedgeId h, const Vec2& image, VertexId like) {
   state.offset = states_[like].offset;
   state.distance = state.offset + (frame.apex - image).norm();
   const VertexId v = mesh_.to(mesh_.next(h));
-  if (!(state.distance < states_[v].distance)) return;
+  if (!(state.distance < kGain * states_[v].distance)) return;
   state.root = states_[like].root;
   state.image = image;
   state.halfedge = h;
@@ -163,16 +158,18 @@ Vec2 FastMarch::image_at_end(HalfedgeId h) const {
 void FastMarch::two_roots(HalfedgeId h) {
   const VertexId u = mesh_.from(h), w = mesh_.to(h);
   const Vec2 at_u = image_at_start(h), at_w = image_at_end(h);
-  const int root_u = states_[u].root, root_w = states_[w].root;
   const Vec2& apex = unfolding_.frame(h).apex;
   const auto side = [](const Vec2& a, const Vec2& b, const Vec2& p) {
     return (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
   };
-  // The root of one may stand in the light of the other's: the line through both bounds its shadow. The start
-  // of h is on the left of a ray that crosses h upwards.
-  bool sees_u = true, sees_w = true;
-  if (root_w >= 0 && states_[root_w].root == root_u) sees_u = side(at_u, at_w, apex) > 0.0, sees_w = !sees_u;
-  if (root_u >= 0 && states_[root_u].root == root_w) sees_w = side(at_w, at_u, apex) < 0.0, sees_u = !sees_w;
+  // Where a root would reach the other end sooner than its distance, that end lies in its shadow, and the
+  // line through both images bounds the shadow. The start of h is on the left of a ray that crosses h
+  // upwards.
+  const double length = unfolding_.length(h);
+  const double u_at_w = states_[u].offset + (at_u - Vec2(length, 0.0)).norm();
+  const double w_at_u = states_[w].offset + at_w.norm();
+  const bool sees_u = u_at_w >= states_[w].distance || side(at_u, at_w, apex) > 0.0;
+  const bool sees_w = w_at_u >= states_[u].distance || side(at_w, at_u, apex) < 0.0;
   if (sees_u) through(h, at_u, u);
   if (sees_w) through(h, at_w, w);
 }

@@ -10,6 +10,15 @@ namespace wilt {
 /// The straightest path from `start` in the tangent direction `direction` (projected into the start's face),
 /// turned left by `turn(s)` radians per unit length at arc length s (empty: straight), until `max_length`,
 /// the margin, or `stop(point)` says so (empty: never).
+///
+/// Polthier and Schmies 1998: straight inside a face and across an edge; a vertex is passed on the side of
+/// the face that the path would enter. A start on an edge or a vertex begins in the face around it into
+/// which the direction points. With `turn`, steps are at most a tenth of the mean edge length. `stop` is
+/// asked at every point after the first; the point at which it says so is the last. At the margin the path
+/// ends, and holds the start alone when it begins there and points outwards.
+///
+/// Throws Error{input} when the start is not on the mesh or positions do not fit it, Error{configuration}
+/// when the direction has no tangential part or max_length is not positive and finite. Deterministic.
 SurfacePath trace_straight(const SurfaceMesh& mesh, const Points3& positions, const SurfacePoint& start,
                            const Vec3& direction, double max_length,
                            const std::function<double(double)>& turn = {},
