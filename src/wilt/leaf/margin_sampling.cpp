@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wilt/leaf/necks.hpp"
 #include "wilt/leaf/rings.hpp"
 
 namespace wilt::detail {
@@ -12,6 +13,8 @@ constexpr int kDense = 4;            // points per edge while smoothing
 constexpr double kSmoothing = 0.6;   // standard deviation, edges
 constexpr double kClearance = 0.45;  // of lattice points from the margin, edges; 0.433 fills evenly
 constexpr int kSmallestHole = 5;     // samples
+constexpr int kRoundsPerStage = 4;   // of smoothing between resamplings
+constexpr double kThinnest = 0.45;   // thickness of the blade, edges
 
 // A ring being sampled: its dense form and the indices of the samples, ascending.
 struct Ring {
@@ -101,65 +104,117 @@ void uncross(std::vector<Ring>& rings) {
   }
 }
 
+// Where a point to be kept is on a ring, as a share of the ring's length: it survives smoothing and
+// resampling.
+struct KeptPlace {
+  std::size_t ring = 0;
+  double share = 0.0;
+  double distance = 1e300;  // from the point to the ring
+};
+
+std::size_t index_of(const KeptPlace& place, const Polyline& ring) {
+  const std::vector<double> s = arc_lengths(ring);
+  const auto above = std::lower_bound(s.begin(), s.end(), place.share * s.back());
+  const auto i = static_cast<std::size_t>(above - s.begin());
+  const bool below_is_nearer =
+      i > 0 && place.share * s.back() - s[i - 1] < s[std::min(i, ring.size())] - place.share * s.back();
+  return (below_is_nearer ? i - 1 : i) % ring.size();
+}
+
+// The nearest places of a polygon to some points, on its segments.
+std::vector<KeptPlace> places_on(const Polyline& ring, const Polyline& points) {
+  const std::vector<double> s = arc_lengths(ring);
+  std::vector<KeptPlace> places(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 u = ring[(i + 1) % ring.size()] - ring[i];
+      const double t =
+          u.squaredNorm() > 0.0 ? std::clamp((points[k] - ring[i]).dot(u) / u.squaredNorm(), 0.0, 1.0) : 0.0;
+      const double distance = (ring[i] + t * u - points[k]).norm();
+      if (distance < places[k].distance) {
+        places[k].distance = distance;
+        places[k].share = (s[i] + t * u.norm()) / s.back();
+      }
+    }
+  }
+  return places;
+}
+
+// Resamples and smooths a ring in stages, so that the steps stay even while details vanish; `places` follow.
+// False for a hole that is too small at this scale.
+bool smooth_to_scale(const Polyline& ring, double edge, double smoothing, bool is_hole, Polyline& dense,
+                     std::vector<KeptPlace>& places) {
+  const double sigma = kDense * kSmoothing * smoothing;
+  const int stages = std::max(1, static_cast<int>(std::lround(2.0 * sigma * sigma / kRoundsPerStage)));
+  dense = ring;
+  for (int stage = 0; stage <= stages; ++stage) {
+    const double length = length_of(dense, true);
+    if (is_hole && length < (stage < stages ? kSmallestHole : 3) * edge) return false;
+    const int count = std::max(static_cast<int>(std::ceil(length / edge * kDense)), 3 * kDense);
+    dense = resample_ring(dense, count);
+    if (stage == stages) break;
+    std::vector<std::size_t> indices;
+    for (const KeptPlace& place : places) indices.push_back(index_of(place, dense));
+    smooth_ring(dense, kRoundsPerStage);
+    const std::vector<double> s = arc_lengths(dense);
+    for (std::size_t k = 0; k < places.size(); ++k) places[k].share = s[indices[k]] / s.back();
+  }
+  return true;
+}
+
+// The dense indices that must become samples, ascending; places nearer than 0.6 edges share one.
+std::vector<int> forced_samples(const std::vector<KeptPlace>& kept, std::size_t ring, const Polyline& dense) {
+  std::vector<int> wanted;
+  for (const KeptPlace& place : kept) {
+    if (place.ring == ring) wanted.push_back(static_cast<int>(index_of(place, dense)));
+  }
+  std::sort(wanted.begin(), wanted.end());
+  std::vector<int> apart;
+  for (const int i : wanted) {
+    if (apart.empty() || i - apart.back() > 0.6 * kDense) apart.push_back(i);
+  }
+  if (apart.empty()) apart.push_back(0);
+  return apart;
+}
+
 }  // namespace
 
 SampledMargin sample_margin(const std::vector<Polyline>& outline, const Polyline& keep, double edge,
                             double smoothing) {
   std::vector<Ring> rings;
-  std::vector<std::vector<int>> forced;
-  std::vector<std::pair<std::size_t, int>> kept_at(keep.size());  // ring, dense index
-  std::vector<double> kept_distance(keep.size(), 1e300);
-  const double sigma = kDense * kSmoothing * smoothing;
+  std::vector<KeptPlace> kept(keep.size());
   for (std::size_t r = 0; r < outline.size(); ++r) {
-    const int count = static_cast<int>(std::ceil(length_of(outline[r], true) / edge * kDense));
-    if (r > 0 && count < kDense * kSmallestHole) continue;
     Ring ring;
-    ring.dense = resample_ring(outline[r], std::max(count, 3 * kDense));
+    std::vector<KeptPlace> here = places_on(outline[r], keep);
+    if (!smooth_to_scale(outline[r], edge, smoothing, r > 0, ring.dense, here)) continue;
     for (std::size_t k = 0; k < keep.size(); ++k) {
-      const int i = nearest_index(ring.dense, keep[k]);
-      const double distance = (ring.dense[static_cast<std::size_t>(i)] - keep[k]).norm();
-      if (distance < kept_distance[k]) {
-        kept_distance[k] = distance;
-        kept_at[k] = {rings.size(), i};
-      }
+      here[k].ring = rings.size();
+      if (here[k].distance < kept[k].distance) kept[k] = here[k];
     }
-    smooth_ring(ring.dense, static_cast<int>(std::lround(2.0 * sigma * sigma)));
-    if (r > 0 && length_of(ring.dense, true) < 3.0 * edge) continue;
     rings.push_back(std::move(ring));
   }
-  SampledMargin result;
   for (std::size_t r = 0; r < rings.size(); ++r) {
-    // Kept points nearer than 0.6 edges share a sample.
-    std::vector<int> wanted;
-    for (std::size_t k = 0; k < keep.size(); ++k) {
-      if (kept_at[k].first == r) wanted.push_back(kept_at[k].second);
-    }
-    std::sort(wanted.begin(), wanted.end());
-    std::vector<int> apart;
-    for (const int i : wanted) {
-      if (apart.empty() || i - apart.back() > 0.6 * kDense) apart.push_back(i);
-    }
-    if (apart.empty()) apart.push_back(0);
-    rings[r].samples = spread_samples(rings[r].dense, apart, edge);
+    rings[r].samples = spread_samples(rings[r].dense, forced_samples(kept, r, rings[r].dense), edge);
   }
   uncross(rings);
-  std::vector<int> first;
-  for (const Ring& ring : rings) {
-    first.push_back(static_cast<int>(result.points.size()));
+  std::vector<Polyline> lines;
+  for (const Ring& ring : rings) lines.push_back(sampled(ring));
+  std::vector<Polyline> thick = lines;
+  thicken_necks(thick, kThinnest * edge);
+  if (!find_crossing(thick)) lines = std::move(thick);
+  SampledMargin result;
+  for (const Polyline& line : lines) {
     std::vector<int> indices;
-    const Polyline points = sampled(ring);
-    for (const Vec2& p : points) {
+    for (const Vec2& p : line) {
       indices.push_back(static_cast<int>(result.points.size()));
       result.points.push_back(p);
     }
     result.rings.push_back(std::move(indices));
-    result.length += length_of(points, true);
-    result.area += (first.size() == 1 ? 1.0 : -1.0) * std::abs(signed_area(points));
   }
-  for (std::size_t k = 0; k < keep.size(); ++k) {
-    const Ring& ring = rings[kept_at[k].first];
-    const Vec2& target = ring.dense[static_cast<std::size_t>(kept_at[k].second)];
-    result.kept.push_back(first[kept_at[k].first] + nearest_index(sampled(ring), target));
+  for (const KeptPlace& place : kept) {
+    const Ring& ring = rings[place.ring];
+    const int sample = nearest_index(sampled(ring), ring.dense[index_of(place, ring.dense)]);
+    result.kept.push_back(result.rings[place.ring][static_cast<std::size_t>(sample)]);
   }
   return result;
 }

@@ -146,7 +146,10 @@ void check_options(const MeshingOptions& options) {
 PlanarMesh mesh_outline(const Outline& outline, const MeshingOptions& options, const Monitor& monitor) {
   check_options(options);
   validate_outline(outline);
-  const std::vector<Polyline> rings = rings_of(outline);
+  std::vector<Polyline> rings = rings_of(outline);
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    if ((signed_area(rings[r]) > 0.0) != (r == 0)) std::reverse(rings[r].begin(), rings[r].end());
+  }
   double reached = 0.0;
   // An outline with needles or necks that defeat the angle is smoothed more.
   for (const double smoothing : {1.0, 1.4, 2.0, 2.8, 4.0}) {

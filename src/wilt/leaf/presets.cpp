@@ -35,7 +35,7 @@ class Section {
     return *value;
   }
   bool flag(std::string_view key) {
-    const auto value = node(key).value<bool>();
+    const auto value = node(key).value_exact<bool>();
     if (!value) fail(key, "must be true or false");
     return *value;
   }
