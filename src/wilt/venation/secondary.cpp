@@ -16,11 +16,8 @@ constexpr double kFirst = 0.12;      // no secondary vein on this first share of
 constexpr double kLast = 0.06;       // nor on this last share
 constexpr double kClearance = 0.25;  // between veins, in units of the spacing
 constexpr double kShortest = 0.2;    // a shorter vein is left out, in units of the spacing
-constexpr double kReturn =
-    0.8;  // a vein that comes back to its primary ends, in units of its farthest distance
-constexpr double kReach = 0.96;  // share of the way to whatever stops it that a vein covers
-
-constexpr int kPasses = 4;  // straight first, then bent over the length found before
+constexpr double kReach = 0.96;      // share of the way to whatever stops it that a vein covers
+constexpr int kPasses = 4;           // straight first, then bent over the length found before
 
 /// A place on a primary vein.
 struct Origin {
@@ -147,7 +144,7 @@ class SecondaryVeins {
       }
     }
     farthest = std::max(farthest, own);
-    if (other - own < clearance || own < kReturn * farthest) return true;
+    if (other - own < clearance || own < farthest - clearance) return true;
     const Vec3 place = position(mesh_, positions_, point);
     return std::any_of(drawn_.begin(), drawn_.end(), [&](const Drawn& vein) {
       // The veins across their common primary start where this one does.
