@@ -15,8 +15,9 @@ namespace {
 constexpr double kFirst = 0.12;      // no secondary vein on this first share of the primary
 constexpr double kLast = 0.06;       // nor on this last share
 constexpr double kClearance = 0.25;  // between veins, in units of the spacing
-constexpr double kShortest = 0.3;    // a shorter vein is left out, in units of the spacing
+constexpr double kShortest = 0.2;    // a shorter vein is left out, in units of the spacing
 constexpr double kReach = 0.96;      // share of the way to whatever stops it that a vein covers
+constexpr int kPasses = 4;           // straight first, then bent over the length found before
 
 /// A place on a primary vein.
 struct Origin {
@@ -80,22 +81,24 @@ class SecondaryVeins {
     const double share = s / primary.length;
     const double angle = (1.0 - share) * rule_.angle + share * rule_.angle_tip;
     const Vec3 direction = Eigen::AngleAxisd(side * angle, origin.normal) * origin.tangent;
-    const auto stop = [&](const SurfacePoint& point) { return crowded(point, index, side); };
-    const auto trace = [&](double longest, double bend) {
-      return trace_straight(
-          mesh_, positions_, origin.point, direction, longest, [bend](double) { return bend; }, stop);
+    // Turns by rule_.curvature over the stretch `arc`, then goes straight.
+    const auto trace = [&](double longest, double arc) {
+      double farthest = 0.0;
+      const auto stop = [&](const SurfacePoint& point) { return crowded(point, index, side, farthest); };
+      const auto turn = [&](double at) { return at < arc ? -side * rule_.curvature / arc : 0.0; };
+      return trace_straight(mesh_, positions_, origin.point, direction, longest, turn, stop);
     };
-    const double left = primary.length - s;
-    const double straight = trace(left, 0.0).length;
-    if (straight < kShortest * spacing_) return;
-    const double bend = -side * rule_.curvature / straight;
-    const double length = kReach * trace(left, bend).length;
-    if (length < kShortest * spacing_) return;
+    double length = 0.0, arc = 0.0;
+    for (int pass = 0; pass < kPasses; ++pass) {
+      length = trace(primary.length - s, arc).length;
+      if (length < kShortest * spacing_) return;
+      arc = length;
+    }
 
     Vein vein;
     vein.order = 2;
     vein.parent = index;
-    vein.path = trace(length, bend);
+    vein.path = trace(kReach * length, arc);
     remember(vein, side);
     veins_.push_back(std::move(vein));
   }
@@ -126,7 +129,8 @@ class SecondaryVeins {
     return ab.cross(ac).normalized();
   }
 
-  bool crowded(const SurfacePoint& point, int parent, int side) const {
+  /// Whether a vein must end before `point`; `farthest` is how far from its primary it has been.
+  bool crowded(const SurfacePoint& point, int parent, int side, double& farthest) const {
     const double clearance = kClearance * spacing_;
     const auto corners = mesh_.face_vertices(point.face);
     double own = 0.0, other = std::numeric_limits<double>::infinity();
@@ -139,7 +143,8 @@ class SecondaryVeins {
         other = std::min(other, distance);
       }
     }
-    if (other - own < clearance) return true;
+    farthest = std::max(farthest, own);
+    if (other - own < clearance || own < farthest - clearance) return true;
     const Vec3 place = position(mesh_, positions_, point);
     return std::any_of(drawn_.begin(), drawn_.end(), [&](const Drawn& vein) {
       // The veins across their common primary start where this one does.
