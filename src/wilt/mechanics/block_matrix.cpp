@@ -91,6 +91,8 @@ void BlockMatrix::finish() {
     for (int i = begin; i < end; ++i) {
       for (int s = pattern_->row_begin(i); s < pattern_->diagonal(i); ++s)
         at(s) = block(pattern_->mirror(s)).transpose();
+      const Eigen::Matrix3d own = block(pattern_->diagonal(i));
+      at(pattern_->diagonal(i)) = 0.5 * (own + own.transpose());  // its terms are symmetric to round-off only
     }
   });
 }

@@ -74,6 +74,98 @@ int first_not_finite(const Points3& values) {
   return -1;
 }
 
+// Newton's method for one step. The matrix is kept for as long as the residual falls fast.
+class NewtonSolve {
+ public:
+  NewtonSolve(const System& system, const MidpointOptions& options, BlockMatrix& matrix,
+              const MotionState& start, double dt, StepReport& report)
+      : system_(system), options_(options), matrix_(matrix), start_(start), dt_(dt), report_(report) {}
+
+  bool run();  ///< false: the report says why
+  const Points3& displacement() const { return d_; }
+  double relative_residual() const { return scale_ > 0.0 ? current_.norm / scale_ : 0.0; }
+
+ private:
+  bool fail(const std::string& reason) {
+    report_.reason = fmt::format("{} at a step of {}", reason, dt_);
+    return false;
+  }
+  void build_matrix();
+  CgResult solve_linear(Points3& delta);
+  bool descend(const Points3& delta, bool shorten);
+
+  const System& system_;
+  const MidpointOptions& options_;
+  BlockMatrix& matrix_;
+  const MotionState& start_;
+  const double dt_;
+  StepReport& report_;
+
+  Points3 d_;
+  Residual current_;
+  double scale_ = 0.0, target_ = 0.0;
+  Curvature curvature_ = Curvature::exact;
+  bool matrix_wanted_ = true;
+};
+
+bool NewtonSolve::run() {
+  d_ = first_guess(system_, start_, dt_);
+  current_.evaluate(system_, start_, d_, dt_);
+  if (!std::isfinite(current_.norm)) return fail("a force is not finite where the iteration starts");
+  scale_ = std::max(current_.force_scale, momentum_scale(system_, start_, dt_));
+  target_ = std::max(options_.tolerance * scale_, round_off(system_, nullptr, start_.positions, dt_));
+
+  Points3 delta;
+  for (int iteration = 0; current_.norm > target_; ++iteration) {
+    if (iteration == options_.max_newton)
+      return fail(fmt::format("no convergence in {} iterations (residual {:.3g} of {:.3g})", iteration,
+                              current_.norm, scale_));
+    ++report_.newton;
+    const bool fresh = matrix_wanted_;
+    if (fresh) build_matrix();
+    if (current_.norm <= target_) break;  // the matrix has told how large round-off is
+    const CgResult linear = solve_linear(delta);
+    if (linear.status != CgStatus::negative_curvature && descend(delta, fresh)) continue;
+    // First a new matrix, then a semi-definite one, then a smaller time step.
+    matrix_wanted_ = true;
+    if (!fresh) continue;
+    if (curvature_ == Curvature::semidefinite) return fail("no step along Newton's direction helps");
+    curvature_ = Curvature::semidefinite;
+  }
+  return true;
+}
+
+void NewtonSolve::build_matrix() {
+  system_.assemble(current_.position, current_.velocity, 0.25 * dt_ * dt_, 0.5 * dt_, curvature_, matrix_);
+  target_ = std::max(options_.tolerance * scale_, round_off(system_, &matrix_, start_.positions, dt_));
+  matrix_wanted_ = false;
+}
+
+CgResult NewtonSolve::solve_linear(Points3& delta) {
+  const double factor = 0.5 * dt_ * dt_;  // R is a force, A a mass
+  const double forcing = std::max(kForcing, 0.5 * target_ / current_.norm);
+  const CgResult linear = solve_cg(matrix_, -factor * current_.values, system_.pinned(),
+                                   forcing * factor * current_.norm, options_.max_linear, delta);
+  report_.linear += linear.iterations;
+  return linear;
+}
+
+// Goes along delta as far as the residual falls; without `shorten`, all the way or not at all.
+bool NewtonSolve::descend(const Points3& delta, bool shorten) {
+  Residual trial;
+  double length = 1.0;
+  for (int k = 0; k <= (shorten ? kMaxShortenings : 0); ++k, length *= 0.5) {
+    Points3 trial_d = d_ + length * delta;
+    trial.evaluate(system_, start_, trial_d, dt_);
+    if (!std::isfinite(trial.norm) || trial.norm >= (1.0 - 1e-4 * length) * current_.norm) continue;
+    matrix_wanted_ = trial.norm > kSlowReduction * current_.norm;
+    d_ = std::move(trial_d);
+    current_ = std::move(trial);
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void MidpointOptions::validate() const {
@@ -136,75 +228,16 @@ bool ImplicitMidpoint::advance(MotionState& state, double dt, int halvings_left,
 }
 
 bool ImplicitMidpoint::solve(MotionState& state, double dt, StepReport& report) {
-  const auto fail = [&](std::string reason) {
-    report.reason = fmt::format("{} at a step of {}", reason, dt);
-    return false;
-  };
-  Points3 d = first_guess(*system_, state, dt), delta, trial_d;
-  Residual current, trial;
-  current.evaluate(*system_, state, d, dt);
-  if (!std::isfinite(current.norm)) return fail("a force is not finite where the iteration starts");
-  const double scale = std::max(current.force_scale, momentum_scale(*system_, state, dt));
-  double target = std::max(options_.tolerance * scale, round_off(*system_, nullptr, state.positions, dt));
-
-  Curvature curvature = Curvature::exact;
-  bool matrix_wanted = true;
-  for (int iteration = 0; current.norm > target; ++iteration) {
-    if (iteration == options_.max_newton)
-      return fail(fmt::format("no convergence in {} iterations (residual {:.3g} of {:.3g})", iteration,
-                              current.norm, scale));
-    ++report.newton;
-    const bool fresh = matrix_wanted;
-    if (matrix_wanted) {
-      system_->assemble(current.position, current.velocity, 0.25 * dt * dt, 0.5 * dt, curvature, matrix_);
-      target = std::max(options_.tolerance * scale, round_off(*system_, &matrix_, state.positions, dt));
-      if (current.norm <= target) break;
-      matrix_wanted = false;
-    }
-    const double factor = 0.5 * dt * dt;  // R is a force, A is masses
-    const double forcing = std::max(kForcing, 0.5 * target / current.norm);
-    const CgResult linear = solve_cg(matrix_, -factor * current.values, system_->pinned(),
-                                     forcing * factor * current.norm, options_.max_linear, delta);
-    report.linear += linear.iterations;
-    if (linear.status == CgStatus::negative_curvature) {
-      if (curvature == Curvature::semidefinite) return fail("the matrix is not positive definite");
-      curvature = Curvature::semidefinite;
-      matrix_wanted = true;
-      continue;
-    }
-
-    double length = 1.0;
-    bool shorter = false;
-    for (int k = 0; k <= kMaxShortenings && !shorter; ++k) {
-      trial_d = d + length * delta;
-      trial.evaluate(*system_, state, trial_d, dt);
-      shorter = std::isfinite(trial.norm) && trial.norm < (1.0 - 1e-4 * length) * current.norm;
-      if (!shorter && !fresh) break;  // try a new matrix before a shorter step
-      if (!shorter) length *= 0.5;
-    }
-    if (!shorter) {
-      if (fresh && curvature == Curvature::semidefinite)
-        return fail("no step along Newton's direction helps");
-      if (fresh) curvature = Curvature::semidefinite;
-      matrix_wanted = true;
-      continue;
-    }
-    matrix_wanted = trial.norm > kSlowReduction * current.norm;
-    std::swap(d, trial_d);
-    std::swap(current, trial);
-  }
-
-  report.residual = std::max(report.residual, scale > 0.0 ? current.norm / scale : 0.0);
-  const Points3 v1 = 2.0 / dt * d - state.velocities;
+  NewtonSolve newton(*system_, options_, matrix_, state, dt, report);
+  if (!newton.run()) return false;
+  report.residual = std::max(report.residual, newton.relative_residual());
+  const Points3& d = newton.displacement();
   for (int i = 0; i < d.rows(); ++i) {
-    if (system_->pinned()[i]) {
-      state.velocities.row(i).setZero();
-      state.accelerations.row(i).setZero();
-      continue;
-    }
+    const Vec3 before = state.velocities.row(i).transpose();
+    const Vec3 after = system_->pinned()[i] ? Vec3::Zero() : Vec3(2.0 / dt * d.row(i).transpose() - before);
     state.positions.row(i) += d.row(i);
-    state.accelerations.row(i) = (v1.row(i) - state.velocities.row(i)) / dt;
-    state.velocities.row(i) = v1.row(i);
+    state.velocities.row(i) = after.transpose();
+    state.accelerations.row(i) = (after - before).transpose() / dt;
   }
   return true;
 }
