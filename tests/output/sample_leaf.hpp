@@ -101,7 +101,7 @@ inline std::vector<Frame> sample_frames(const Leaf& leaf) {
   return frames;
 }
 
-/// sRGB from green to brown, different at every vertex.
+/// Colours from green to brown, different at every vertex.
 inline std::vector<Points3> sample_colours(const Leaf& leaf, const std::vector<Frame>& frames) {
   std::vector<Points3> colours;
   for (const Frame& frame : frames) {

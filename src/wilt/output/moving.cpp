@@ -1,23 +1,10 @@
 #include "wilt/output/moving.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "wilt/mesh/geometry.hpp"
 #include "wilt/output/coordinates.hpp"
 #include "wilt/output/tube.hpp"
 
 namespace wilt {
-namespace {
-
-// IEC 61966-2-1: the linear intensity of an sRGB value.
-double linear_from_srgb(double value) {
-  const double c = std::clamp(value, 0.0, 1.0);
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
-
-}  // namespace
-
 Moving moving_blade(const GlbScene& scene) {
   const Leaf& leaf = scene.leaf;
   const int size = static_cast<int>(leaf.skin.vertex.size());
@@ -44,7 +31,7 @@ Moving moving_blade(const GlbScene& scene) {
                  spread(file_normals(leaf.placement, normals))};
   };
   moving.colours = [&scene, spread](int k) -> Points3 {
-    return spread(scene.colours[static_cast<std::size_t>(k)].unaryExpr(&linear_from_srgb));
+    return spread(scene.colours[static_cast<std::size_t>(k)].cwiseMax(0.0).cwiseMin(1.0));
   };
   return moving;
 }
@@ -66,7 +53,7 @@ Moving moving_stalk(const GlbScene& scene, int sides) {
     return Shape{file_points(leaf.placement, shape.positions), file_normals(leaf.placement, shape.normals)};
   };
   moving.colours = [&scene, size](int k) -> Points3 {
-    const Vec3 colour = scene.stalk_colours[static_cast<std::size_t>(k)].unaryExpr(&linear_from_srgb);
+    const Vec3 colour = scene.stalk_colours[static_cast<std::size_t>(k)].cwiseMax(0.0).cwiseMin(1.0);
     return colour.transpose().replicate(size, 1);
   };
   return moving;

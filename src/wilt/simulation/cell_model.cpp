@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wilt/core/check.hpp"
+#include "wilt/mechanics/area_limit.hpp"
 #include "wilt/mechanics/edge_forces.hpp"
 #include "wilt/mesh/geometry.hpp"
 #include "wilt/simulation/model_parts.hpp"
@@ -117,6 +118,11 @@ void CellModel::add_terms(const ModelInput& input, const Eigen::VectorXd& length
   system_.add_energy("strain limit",
                      std::make_unique<StrainLimit>(edges_, lengths, c.strain_limit.stiffness * stiffness,
                                                    c.strain_limit.threshold));
+  system_.add_energy(
+      "area limit",
+      std::make_unique<AreaLimit>(input.leaf.mesh.face_matrix(), input.rest,
+                                  Eigen::VectorXd::Constant(input.leaf.mesh.num_faces(), c.springs.stiffness),
+                                  c.strain_limit.area));
   swelling_ = &system_.add_energy("swelling", std::make_unique<LineTension>(edges_, constant(0.0)));
   bending_ = &system_.add_energy("bending", std::make_unique<Hinges>(hinges_, input.rest, fresh_bending_));
   gravity_ = &system_.add_energy("gravity", std::make_unique<Gravity>(water_.mass(), droop_.gravity()));
@@ -156,7 +162,8 @@ void CellModel::update_bending() {
 }
 
 ForceBreakdown CellModel::forces(const Points3& x, const Points3& v) const {
-  return {system_.force_of("elastic", x, v) + system_.force_of("strain limit", x, v),
+  return {system_.force_of("elastic", x, v) + system_.force_of("strain limit", x, v) +
+              system_.force_of("area limit", x, v),
           system_.force_of("damping", x, v), system_.force_of("swelling", x, v),
           system_.force_of("external", x, v)};
 }

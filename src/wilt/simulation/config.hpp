@@ -62,7 +62,7 @@ struct Config {
     double amount = 1.0, vein_gap = 0.5, margin = 0.5, noise = 0.3;
   } shrinkage;
   struct {
-    double threshold = 0.2, stiffness = 40.0;
+    double threshold = 0.35, stiffness = 40.0, area = 0.4;
   } strain_limit;
   struct {
     double strength = 0.004, petiole_stiffness = 1.0, petiole_turgor_loss = 0.9;
