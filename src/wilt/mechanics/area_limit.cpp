@@ -3,10 +3,13 @@
 // cross matrices.
 #include "wilt/mechanics/area_limit.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 
+#include "wilt/core/error.hpp"
 #include "wilt/mechanics/argument_checks.hpp"
 
 namespace wilt {

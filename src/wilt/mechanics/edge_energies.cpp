@@ -2,10 +2,13 @@
 // strain.
 #include "wilt/mechanics/edge_energies.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "wilt/core/error.hpp"
 #include "wilt/mechanics/argument_checks.hpp"
 
 namespace wilt {
@@ -51,6 +54,7 @@ void EdgeEnergy::add_hessian(const Points3& x, BlockMatrix& matrix, double scale
       across = std::max(across, 0.0);
       along = std::max(along, 0.0);
     }
+    if (across == 0.0 && along == 0.0) continue;
     const Vec3 n = edge / length;
     Eigen::Matrix3d block = scale * (along - across) * n * n.transpose();
     block.diagonal().array() += scale * across;

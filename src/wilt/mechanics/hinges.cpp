@@ -2,6 +2,8 @@
 // 2003).
 #include "wilt/mechanics/hinges.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include "wilt/core/check.hpp"
+#include "wilt/core/error.hpp"
 #include "wilt/mechanics/argument_checks.hpp"
 #include "wilt/mechanics/hinge_geometry.hpp"
 

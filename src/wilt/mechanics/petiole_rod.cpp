@@ -14,6 +14,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "wilt/core/error.hpp"
 #include "wilt/mechanics/argument_checks.hpp"
 
 namespace wilt {

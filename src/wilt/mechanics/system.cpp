@@ -1,8 +1,11 @@
 #include "wilt/mechanics/system.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "wilt/core/error.hpp"
 #include "wilt/core/nearest.hpp"
 #include "wilt/mechanics/argument_checks.hpp"
 
