@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "wilt/core/error.hpp"
+#include "wilt/mesh/geometry.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/output/obj.hpp"
 #include "wilt/output/tube.hpp"
@@ -37,6 +38,16 @@ GlbScene glb_scene(const WitheredLeaf& withered) {
     scene.colours.push_back(leaf_colours(withered.leaf, withered.venation, colours, frame.dryness));
   scene.stalk_colours.push_back(linear_rgb(colours.stalk));
   return scene;
+}
+
+// The leaf as it would lie on a table: its mean normal up. How it hangs is for the files to show.
+Frame laid_down(const SurfaceMesh& mesh, const Frame& frame) {
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond::FromTwoVectors(area_vector(mesh, frame.positions), Vec3::UnitZ());
+  Frame laid = frame;
+  laid.positions = frame.positions * turn.toRotationMatrix().transpose();
+  if (frame.stalk.rows() > 0) laid.stalk = frame.stalk * turn.toRotationMatrix().transpose();
+  return laid;
 }
 
 std::vector<VeinLine> vein_lines(const WitheredLeaf& withered, const Frame& frame) {
@@ -94,6 +105,16 @@ WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& 
   return withered;
 }
 
+void check_result_path(const std::string& path) {
+  const std::string extension = lower_extension(path);
+  if (extension != ".glb" && extension != ".obj" && extension != ".png")
+    throw Error(ErrorCode::configuration,
+                fmt::format("cannot write '{}': results are .glb (all frames), .obj (the last frame) or .png "
+                            "(a picture of it)",
+                            path));
+  check_writable(path);
+}
+
 void check_writable(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder))
@@ -101,7 +122,7 @@ void check_writable(const std::string& path) {
                                                path, folder.string()));
 }
 
-void write_result(const std::string& path, const WitheredLeaf& withered) {
+void write_result(const std::string& path, const WitheredLeaf& withered, Terminal& terminal) {
   const std::string extension = lower_extension(path);
   if (extension == ".glb") {
     GlbOptions options;
@@ -110,9 +131,8 @@ void write_result(const std::string& path, const WitheredLeaf& withered) {
   } else if (extension == ".obj") {
     write_obj(path, withered.leaf, withered.result.frames.back());
   } else {
-    throw Error(
-        ErrorCode::configuration,
-        fmt::format("cannot write '{}': results are .glb (all frames) or .obj (the last frame)", path));
+    write_png(path,
+              picture_of(withered, withered.result.frames.back(), kPictureWidth, kPictureHeight, terminal));
   }
 }
 
@@ -121,9 +141,10 @@ std::string report_of(const WitheredLeaf& withered) {
                      withered.timings);
 }
 
-Image picture_of(const WitheredLeaf& withered, const Frame& frame, int width, int height,
+Image picture_of(const WitheredLeaf& withered, const Frame& hanging, int width, int height,
                  Terminal& terminal) {
   const Leaf& leaf = withered.leaf;
+  const Frame frame = laid_down(leaf.mesh, hanging);
   const LeafColours& colours = species(withered.config.species).colours;
   Surface blade;
   blade.positions = frame.positions;

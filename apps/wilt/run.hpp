@@ -26,16 +26,22 @@ struct WitheredLeaf {
 /// Loads the leaf, finds its veins and withers it. The leaf's notes go to the terminal.
 WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& terminal);
 
-/// Writes one result by its extension: .glb (all frames), .obj (the last frame).
-void write_result(const std::string& path, const WitheredLeaf& withered);
+inline constexpr int kPictureWidth = 960, kPictureHeight = 720;
 
-/// The configuration as JSON, the leaf's own name and vertex count as they were resolved.
+/// Throws unless `path` has an extension that write_result knows, and its folder exists: said before the
+/// work.
+void check_result_path(const std::string& path);
+
+/// Writes one result by its extension: .glb (all frames), .obj (the last frame), .png (a picture of it).
+void write_result(const std::string& path, const WitheredLeaf& withered, Terminal& terminal);
+
+/// The text of report.json.
 std::string report_of(const WitheredLeaf& withered);
 
-/// A picture of the leaf at a frame.
+/// A picture of the leaf at a frame, lying on a table.
 Image picture_of(const WitheredLeaf& withered, const Frame& frame, int width, int height, Terminal& terminal);
 
-/// Throws Error{output} unless the folder of `path` exists: said before the work, not after it.
+/// Throws Error{output} unless the folder of `path` exists.
 void check_writable(const std::string& path);
 
 }  // namespace wilt::cli

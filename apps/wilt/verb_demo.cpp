@@ -14,7 +14,6 @@
 namespace wilt::cli {
 namespace {
 
-constexpr int kPictureWidth = 960, kPictureHeight = 720;
 constexpr int kSheetWidth = 480, kSheetHeight = 360;
 
 void make_folder(const std::filesystem::path& folder) {
@@ -50,7 +49,7 @@ void run(const std::string& folder_name, const GlobalOptions& options) {
 
   const std::string glb = (folder / "maple.glb").string(), picture = (folder / "maple.png").string(),
                     sheet = (folder / "stages.png").string(), report = (folder / "report.json").string();
-  write_result(glb, withered);
+  write_result(glb, withered, terminal);
   write_file(report, report_of(withered));
   write_png(picture,
             picture_of(withered, withered.result.frames.back(), kPictureWidth, kPictureHeight, terminal));

@@ -71,14 +71,7 @@ void summarise(const WitheredLeaf& withered, Terminal& terminal) {
 }
 
 void check_outputs(const Request& request) {
-  for (const std::string& path : request.outputs) {
-    const std::string extension = std::filesystem::path(path).extension().string();
-    if (extension != ".glb" && extension != ".obj")
-      throw Error(
-          ErrorCode::configuration,
-          fmt::format("cannot write '{}': results are .glb (all frames) or .obj (the last frame)", path));
-    check_writable(path);
-  }
+  for (const std::string& path : request.outputs) check_result_path(path);
   for (const std::string& path : {request.report, request.forces}) {
     if (!path.empty()) check_writable(path);
   }
@@ -87,7 +80,7 @@ void check_outputs(const Request& request) {
 void write_all(const Request& request, WitheredLeaf& withered, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   for (const std::string& path : request.outputs) {
-    write_result(path, withered);
+    write_result(path, withered, terminal);
     terminal.say("wrote " + path);
   }
   if (!request.forces.empty()) {
@@ -135,7 +128,7 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
       "Withers a leaf and writes it\n\n"
       "Examples:\n"
       "  wilt simulate maple -o maple.glb\n"
-      "  wilt simulate drawing.svg -o mine.glb -o mine.obj --report report.json\n"
+      "  wilt simulate drawing.svg -o mine.glb -o mine.png --report report.json\n"
       "  wilt simulate grape -o dry.glb --set water.humidity=0.2 --set water.temperature_c=35\n"
       "  wilt simulate ivy -o ivy.glb --model paper --forces forces.csv\n"
       "  wilt simulate maple --print-config > run.toml    then edit it, and give it back:\n"
@@ -144,7 +137,7 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
   verb->get_option("LEAF")->required(false);
   const CLI::Option* seed = verb->get_option("--seed");
   verb->add_option("-o,--output", request->outputs,
-                   "Result: .glb (all frames), .obj (the last frame); repeatable")
+                   "Result: .glb (all frames), .obj (the last frame),\n.png (a picture of it); repeatable")
       ->type_name("FILE")
       ->allow_extra_args(false);
   verb->add_option("--iterations", request->iterations, "Time steps (100)")->type_name("N");

@@ -56,16 +56,16 @@ struct Config {
     double range = 1.0, growth = 0.3, scale = 1.0;
   } external;
   struct {
-    double stiffness = 1e-3, wrinkle_length = 0.2, turgor_loss = 0.5;
+    double stiffness = 5e-4, wrinkle_length = 0.2, turgor_loss = 0.5;
   } bending;
   struct {
-    double amount = 1.0, vein_gap = 0.5, margin = 0.5, noise = 0.3;
+    double amount = 1.0, vein_gap = 1.0, margin = 1.0, noise = 1.2;
   } shrinkage;
   struct {
     double threshold = 0.35, stiffness = 40.0, area = 0.4;
   } strain_limit;
   struct {
-    double strength = 0.004, petiole_stiffness = 1.0, petiole_turgor_loss = 0.9;
+    double strength = 0.004, petiole_stiffness = 15.0, petiole_turgor_loss = 0.9;
   } gravity;
   struct {
     std::int64_t vertices = 120;
