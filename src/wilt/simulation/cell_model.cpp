@@ -60,15 +60,35 @@ Eigen::VectorXd swelling_areas(const ModelInput& input, const Eigen::VectorXd& l
   return result;
 }
 
+// Whether each vertex lies on a vein.
+Eigen::Array<bool, Eigen::Dynamic, 1> on_veins(const ModelInput& input) {
+  return input.venation.vein_distance.array() <
+         kOnVein * mean_edge_length(input.leaf.mesh, input.leaf.positions);
+}
+
 // k_s, with the springs along veins stiffer.
 Eigen::VectorXd spring_stiffness(const ModelInput& input) {
   const SurfaceMesh& mesh = input.leaf.mesh;
-  const double on_vein = kOnVein * mean_edge_length(mesh, input.leaf.positions);
+  const auto on_vein = on_veins(input);
   Eigen::VectorXd stiffness(mesh.num_edges());
   for (const EdgeId e : mesh.edges()) {
     const auto [a, b] = mesh.edge_vertices(e);
-    const bool along = input.venation.vein_distance[a] < on_vein && input.venation.vein_distance[b] < on_vein;
+    const bool along = on_vein[a] && on_vein[b];
     stiffness[e] = input.config.springs.stiffness * (along ? input.config.springs.vein_factor : 1.0);
+  }
+  return stiffness;
+}
+
+// k_b, with the hinges across veins stiffer: those whose far corners lie on one resist its bending, while the
+// lamina may still fold along it.
+Eigen::VectorXd bending_stiffness(const ModelInput& input, const Stencil& hinges) {
+  const double k_b = input.config.bending.stiffness * std::pow(kWorkingLength / 5.0, 2.0) *
+                     std::pow(wrinkle_length(input) / 0.15, 2.0);
+  const auto on_vein = on_veins(input);
+  Eigen::VectorXd stiffness(hinges.rows());
+  for (int h = 0; h < hinges.rows(); ++h) {
+    const bool across = on_vein[hinges(h, 2)] && on_vein[hinges(h, 3)];
+    stiffness[h] = k_b * (across ? input.config.bending.vein_factor : 1.0);
   }
   return stiffness;
 }
@@ -104,9 +124,7 @@ CellModel::CellModel(const ModelInput& input)
       swelling_weight_(differential_strain(input)),
       hinges_(hinge_stencil(input.leaf.mesh.face_matrix())),
       bending_turgor_loss_(input.config.bending.turgor_loss) {
-  const double k_b = input.config.bending.stiffness * std::pow(kWorkingLength / 5.0, 2.0) *
-                     std::pow(wrinkle_length(input) / 0.15, 2.0);
-  fresh_bending_ = Eigen::VectorXd::Constant(hinges_.rows(), k_b);
+  fresh_bending_ = bending_stiffness(input, hinges_);
   add_terms(input, rest_lengths(input.leaf.mesh, input.rest));
 }
 

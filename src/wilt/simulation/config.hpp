@@ -56,10 +56,10 @@ struct Config {
     double range = 1.0, growth = 0.3, scale = 1.0;
   } external;
   struct {
-    double stiffness = 5e-4, wrinkle_length = 0.2, turgor_loss = 0.5;
+    double stiffness = 3e-4, wrinkle_length = 0.2, turgor_loss = 0.5, vein_factor = 5.0;
   } bending;
   struct {
-    double amount = 1.0, vein_gap = 1.0, margin = 1.0, noise = 1.2;
+    double amount = 1.0, vein_gap = 1.0, margin = 1.0, noise = 0.9;
   } shrinkage;
   struct {
     double threshold = 0.35, stiffness = 40.0, area = 0.4;
