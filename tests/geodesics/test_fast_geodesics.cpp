@@ -122,7 +122,7 @@ TEST(AllPairs, ReportProgressAndStopWhenAsked) {
   EXPECT_EQ(fractions.front(), 0.0);
   EXPECT_EQ(fractions.back(), 1.0);
   EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
-  monitor.cancelled = [&] { return fractions.size() > 8; };
+  monitor.cancelled = [&] { return fractions.size() > 6; };
   try {
     all_pairs(surface.mesh, surface.positions, GeodesicMethod::fast, monitor);
     FAIL() << "was not stopped";
