@@ -14,6 +14,10 @@ constexpr int kCurve = -2;
 constexpr double kBend = 0.05;
 // A ray may miss the edge by this much of its length; the error is of second order in the miss.
 constexpr double kMiss = 1e-6;
+// A front's curvature may differ from a flat surface's by this factor: more is noise of a rough surface.
+constexpr double kFocus = 10.0;
+// The largest squared distance of two neighbours' nearest points on one curve, in squared edge lengths.
+constexpr double kPiece = 1.2;
 // A finished vertex is opened again only when its distance falls below this much of it: beyond an obtuse
 // corner the straight path may come later than one along an edge.
 constexpr double kGain = 1.0 - 1e-9;
@@ -85,7 +89,7 @@ void FastMarch::sweep(VertexId u) {
 // By how much the path to u and on along `out` bends at u, radians; 0 at a source.
 double FastMarch::bend(VertexId u, HalfedgeId out) const {
   const State& state = states_[u];
-  if (state.root == u) return 0.0;
+  if (state.distance - state.offset <= kMiss * unfolding_.length(out)) return 0.0;
   double turn = std::abs(unfolding_.angle(out) - state.angle);
   if (!mesh_.is_boundary(u)) turn = std::min(turn, unfolding_.total_angle(u) - turn);
   return std::abs(std::numbers::pi - turn);
@@ -112,23 +116,34 @@ void FastMarch::across(HalfedgeId h) {
   if (!a.finished || !b.finished) return;
   if (a.root == kCurve && b.root == kCurve) return curve(h);
   if (a.root != b.root) return two_roots(h);
-  const double length = unfolding_.length(h);
-  const double ra = a.distance - a.offset, rb = b.distance - b.offset;
-  const double x = (ra * ra - rb * rb + length * length) / (2.0 * length);
-  through(h, {x, -std::sqrt(std::max(0.0, ra * ra - x * x))}, u);
+  const double length = unfolding_.length(h), gap = a.distance - b.distance;
+  if (a.distance == a.offset) return through(h, Vec2(0.0, 0.0), a.distance, u);
+  if (b.distance == b.offset) return through(h, Vec2(length, 0.0), b.distance, w);
+  // The front's centre: it fits both distances, and its rays turn from one end to the other as much as the
+  // directions do: slope_b - slope_a = (length^2 - gap^2) (1/ra + 1/rb) / (2 length), solved for ra.
+  const double slope_a = -std::cos(a.angle - unfolding_.angle(h));
+  const double slope_b = std::cos(unfolding_.angle(mesh_.twin(h)) - b.angle);
+  const double flat = 1.0 / (a.distance - a.offset) + 1.0 / (b.distance - b.offset);
+  const double curvatures = std::clamp(2.0 * length * (slope_b - slope_a) / (length * length - gap * gap),
+                                       flat / kFocus, flat * kFocus);
+  const double product = curvatures * gap;
+  const double ra = (product + 2.0 + std::sqrt(product * product + 4.0)) / (2.0 * curvatures);
+  const double x = 0.5 * length - gap * gap / (2.0 * length) + ra * gap / length;
+  through(h, {x, -std::sqrt(std::max(0.0, (ra - x) * (ra + x)))}, a.distance - ra, u);
 }
 
-// Offers the vertex opposite h the straight path from `image`, if it crosses h; its root is that of `like`.
-void FastMarch::through(HalfedgeId h, const Vec2& image, VertexId like) {
+// Offers the vertex opposite h the straight path from `image`, itself at distance `offset`, if it crosses h;
+// its root is that of `like`.
+void FastMarch::through(HalfedgeId h, const Vec2& image, double offset, VertexId like) {
   const HalfedgeFrame& frame = unfolding_.frame(h);
   if (image.y() > 0.0) return;
   const double crossing = meet_axis(image, frame.apex), miss = kMiss * frame.length;
   if (!(crossing >= -miss && crossing <= frame.length + miss)) return;
   State state;
-  state.offset = states_[like].offset;
-  state.distance = state.offset + (frame.apex - image).norm();
+  state.distance = offset + (frame.apex - image).norm();
   const VertexId v = mesh_.to(mesh_.next(h));
   if (!(state.distance < kGain * states_[v].distance)) return;
+  state.offset = states_[like].offset;
   state.root = states_[like].root;
   state.image = image;
   state.halfedge = h;
@@ -170,17 +185,23 @@ void FastMarch::two_roots(HalfedgeId h) {
   const double w_at_u = states_[w].offset + at_w.norm();
   const bool sees_u = u_at_w >= states_[w].distance || side(at_u, at_w, apex) > 0.0;
   const bool sees_w = w_at_u >= states_[u].distance || side(at_w, at_u, apex) < 0.0;
-  if (sees_u) through(h, at_u, u);
-  if (sees_w) through(h, at_w, w);
+  if (sees_u) through(h, at_u, states_[u].offset, u);
+  if (sees_w) through(h, at_w, states_[w].offset, w);
 }
 
-// The nearest point of the straight piece of curve between the nearest points of both ends of h.
+// The nearest point of the straight piece of curve between the nearest points of both ends of h. These are no
+// farther apart than the ends, unless they belong to two curves or to two sides of a bend.
 void FastMarch::curve(HalfedgeId h) {
   const Vec2 a = image_at_start(h), b = image_at_end(h);
-  const Vec2& apex = unfolding_.frame(h).apex;
+  const HalfedgeFrame& frame = unfolding_.frame(h);
   const double squared = (b - a).squaredNorm();
-  const double t = squared > 0.0 ? std::clamp((apex - a).dot(b - a) / squared, 0.0, 1.0) : 0.0;
-  through(h, a + t * (b - a), mesh_.from(h));
+  if (squared > kPiece * frame.length * frame.length) {
+    through(h, a, 0.0, mesh_.from(h));
+    through(h, b, 0.0, mesh_.to(h));
+    return;
+  }
+  const double t = squared > 0.0 ? std::clamp((frame.apex - a).dot(b - a) / squared, 0.0, 1.0) : 0.0;
+  through(h, a + t * (b - a), 0.0, mesh_.from(h));
 }
 
 }  // namespace wilt::detail

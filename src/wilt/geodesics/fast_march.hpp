@@ -12,8 +12,9 @@ namespace wilt::detail {
 ///
 /// Every vertex knows its root, the last vertex where its path bends, the root's own distance (offset) and
 /// the direction in which it lies. A face with two finished vertices of one root finishes the third from the
-/// root's image in the plane, found by the two distances (as Novotni and Klein 2002 do); with two roots, the
-/// line through both images tells which of them the third vertex sees. Exact on flat, simply bounded faces.
+/// front's centre in the plane, found by their distances and directions (after Novotni and Klein 2002, who
+/// use the distances alone); with two roots, the line through both images tells which of them the third
+/// vertex sees. Exact on flat convex surfaces.
 class FastMarch {
  public:
   FastMarch(const SurfaceMesh& mesh, const Unfolding& unfolding);
@@ -49,7 +50,7 @@ class FastMarch {
   void sweep(VertexId u);
   void along_edge(HalfedgeId h);
   void across(HalfedgeId h);
-  void through(HalfedgeId h, const Vec2& image, VertexId like);
+  void through(HalfedgeId h, const Vec2& image, double offset, VertexId like);
   void two_roots(HalfedgeId h);
   void curve(HalfedgeId h);
   void push(VertexId v, const State& state);

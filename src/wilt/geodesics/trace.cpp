@@ -77,20 +77,23 @@ class Walker {
     heading_ = Vec2(c * heading_.x() - s * heading_.y(), s * heading_.x() + c * heading_.y());
   }
 
-  /// Goes on in this face by at most `length`; returns how far it came. Then `edge()` is the side on which it
-  /// stands, if it came to one.
-  double advance(double length) {
-    side_ = -1;
-    double distance = length;
+  /// How far it is to the side ahead, and which one.
+  double reach(int* side) const {
+    double distance = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 3; ++k) {
       const double rate = heading_.dot(plane_.gradients[k]);
-      const double to_side =
-          rate < 0.0 ? point_.barycentric[k] / -rate : std::numeric_limits<double>::infinity();
-      if (to_side < distance || (to_side == distance && side_ < 0)) {
-        distance = to_side;
-        side_ = k;
-      }
+      if (rate >= 0.0 || point_.barycentric[k] / -rate >= distance) continue;
+      distance = point_.barycentric[k] / -rate;
+      *side = k;
     }
+    return distance;
+  }
+
+  /// Goes on in this face by at most `length`; returns how far it came.
+  double advance(double length) {
+    int side = -1;
+    const double ahead = reach(&side), distance = std::min(length, ahead);
+    side_ = ahead <= length ? side : -1;
     for (int k = 0; k < 3; ++k) {
       double& w = point_.barycentric[k];
       w += distance * heading_.dot(plane_.gradients[k]);
@@ -184,7 +187,11 @@ SurfacePath trace_straight(const SurfaceMesh& mesh, const Points3& positions, co
   // A path that circles a vertex at no distance would never end.
   int idle = 0;
   while (path.length < max_length && idle < 3 * mesh.num_faces()) {
-    const double step = std::min(longest, max_length - path.length);
+    double step = std::min(longest, max_length - path.length);
+    // A turning step ends at the side ahead, or the side would cut its middle off.
+    int side = -1;
+    const double ahead = walker.reach(&side);
+    if (turn && ahead > 0.0) step = std::min(step, ahead);
     // The middle of the step decides its direction: second order in the step.
     const double angle = turn ? turn(path.length + 0.5 * step) * step : 0.0;
     walker.turn_left(0.5 * angle);
