@@ -45,12 +45,12 @@ inline Leaf polar_leaf(int rings, int sectors, const std::function<double(double
 }
 
 /// `lobes` even lobes with tips at angles (k + 1/2) 2 pi / lobes and a deep sinus at the petiole.
-inline Leaf star_leaf(int lobes, int rings = 14, int sectors = 84) {
+inline Leaf star_leaf(int lobes, int rings = 10, int sectors = 70) {
   return polar_leaf(rings, sectors, [lobes](double angle) { return 0.06 - 0.04 * std::cos(lobes * angle); });
 }
 
 /// An ellipse, petiole at one end of its long axis of 0.2: convex, so that geodesics are straight.
-inline Leaf ellipse_leaf(int rings = 14, int sectors = 80) {
+inline Leaf ellipse_leaf(int rings = 8, int sectors = 48) {
   return polar_leaf(rings, sectors, [](double angle) {
     return 0.1 * 0.05 / std::hypot(0.05 * std::cos(angle), 0.1 * std::sin(angle));
   });

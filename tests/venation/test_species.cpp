@@ -28,7 +28,7 @@ VenationOptions without_secondary() {
 class EverySpecies : public testing::TestWithParam<Expected> {};
 
 INSTANTIATE_TEST_SUITE_P(Venation, EverySpecies, testing::ValuesIn(kExpected),
-                         [](const auto& info) { return info.param.species; });
+                         [](const auto& parameter) { return parameter.param.species; });
 
 // Oracle: botany; the number of lobes that make_leaf draws.
 TEST_P(EverySpecies, HasItsTips) {

@@ -89,21 +89,24 @@ TEST(FindVenation, LeadsAPrimaryVeinFromThePetioleToEachTip) {
   }
 }
 
-// Oracle: invariance. Round-off moves distances by 1e-15 of the leaf, so no tip and no vein.
+// Oracle: invariance. Exact distances move by round-off; the fast march, which measures the distance to
+// veins, chooses between faces by comparisons that round-off can turn: a band of 1e-3 of the leaf of 0.2.
 TEST(FindVenation, DoesNotDependOnPlaceAndUnit) {
-  const Leaf leaf = star_leaf(7);
-  const Venation venation = find_venation(leaf, kRule);
+  const Leaf leaf = star_leaf(7, 8, 56);
+  VenationOptions options;
+  options.geodesics = GeodesicMethod::exact;
+  const Venation venation = find_venation(leaf, kRule, options);
   const Eigen::Matrix3d rotation = Eigen::AngleAxisd(1.1, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   for (const double scale : {1.0, 0.01, 1000.0}) {
     const Leaf other =
         moved(leaf, [&](const Vec3& x) { return Vec3(scale * (rotation * x + Vec3(0.3, -2, 1))); });
-    const Venation same = find_venation(other, kRule);
+    const Venation same = find_venation(other, kRule, options);
     EXPECT_EQ(tip_vertices(same), tip_vertices(venation)) << scale;
     EXPECT_NEAR(same.embedding_stress, venation.embedding_stress, 1e-6 * venation.embedding_stress);
     ASSERT_EQ(same.veins.size(), venation.veins.size()) << scale;
     for (std::size_t i = 0; i < same.veins.size(); ++i)
       EXPECT_NEAR(same.veins[i].path.length, scale * venation.veins[i].path.length, 1e-7 * scale) << i;
-    EXPECT_LT((same.vein_distance - scale * venation.vein_distance).cwiseAbs().maxCoeff(), 1e-7 * scale);
+    EXPECT_LT((same.vein_distance - scale * venation.vein_distance).cwiseAbs().maxCoeff(), 2e-4 * scale);
     EXPECT_LT((same.flat - scale * venation.flat).cwiseAbs().maxCoeff(), 1e-7 * scale);
   }
 }
@@ -180,7 +183,7 @@ TEST(FindVenation, RefusesOptionsAndRulesOutOfRange) {
   EXPECT_THROW(find_venation(leaf, kRule, options), Error);
   for (const SecondaryVeinRule& rule :
        {SecondaryVeinRule{0.0, 0.7, 0.24, true, 0.3}, SecondaryVeinRule{0.9, 3.1, 0.24, true, 0.3},
-        SecondaryVeinRule{0.9, 0.7, 0.0, true, 0.3}, SecondaryVeinRule{0.9, 0.7, 0.24, true, 4.0}})
+        SecondaryVeinRule{0.9, 0.7, 0.0, true, 0.3}, SecondaryVeinRule{0.9, 0.7, 0.24, true, 0.8}})
     EXPECT_THROW(find_venation(leaf, rule), Error);
 }
 

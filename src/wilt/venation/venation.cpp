@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -24,7 +25,9 @@ void validate(const SecondaryVeinRule& rule) {
   require(is_angle(rule.angle), "secondary.angle", rule.angle, "in 0 to 3 radians");
   require(is_angle(rule.angle_tip), "secondary.angle_tip", rule.angle_tip, "in 0 to 3 radians");
   require(rule.spacing >= 0.02 && rule.spacing <= 10.0, "secondary.spacing", rule.spacing, "in 0.02 to 10");
-  require(std::abs(rule.curvature) <= 3.0, "secondary.curvature", rule.curvature, "in -3 to 3 radians");
+  // Bent by more than its angle a vein would turn back to its primary.
+  require(std::abs(rule.curvature) <= std::min(rule.angle, rule.angle_tip), "secondary.curvature",
+          rule.curvature, "no larger than secondary.angle and secondary.angle_tip");
 }
 
 std::vector<Tip> find_tips(const MarginProfile& margin, const PeakOptions& options) {
