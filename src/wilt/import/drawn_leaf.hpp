@@ -1,0 +1,33 @@
+// An outline from a file, before it is a leaf. Inside the import room only.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wilt/import/read_leaf.hpp"
+#include "wilt/leaf/outline.hpp"
+
+namespace wilt::detail {
+
+struct DrawnLeaf {
+  Outline outline;              ///< in the file's units, y up
+  std::optional<Vec2> petiole;  ///< as the file or the user gave it, y up
+  double mm_per_unit = 1.0;
+  bool y_down = false;  ///< whether the file's y runs down: for messages
+  std::vector<std::string> notes;
+};
+
+/// {"outline": [[x, y], ...], "holes": [[[x, y], ...], ...], "petiole": [x, y], "mm_per_unit": 1}, y up;
+/// only "outline" must be there. Throws Error{input}, naming the place, for anything else.
+DrawnLeaf read_json_outline(const std::filesystem::path& file);
+
+/// The `nth` largest leaf of a drawing, its stalk joined to it if that is a shape of its own.
+DrawnLeaf read_svg_outline(const std::filesystem::path& file, int nth);
+
+/// Cuts off the stalk, finds the petiole, meshes, and places the leaf in its frame.
+Leaf leaf_from_outline(DrawnLeaf drawn, const std::string& name, const ReadOptions& options,
+                       const Monitor& monitor);
+
+}  // namespace wilt::detail

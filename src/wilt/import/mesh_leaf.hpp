@@ -1,0 +1,14 @@
+// A mesh file as a leaf. Inside the import room only.
+#pragma once
+
+#include "wilt/import/read_leaf.hpp"
+
+namespace wilt::detail {
+
+/// Reads, repairs, finds the petiole, remeshes if asked, and places the leaf in its frame.
+Leaf read_mesh_leaf(const std::filesystem::path& file, const ReadOptions& options, const Monitor& monitor);
+
+/// Says so when a length is none that a leaf has (below 2 mm or above 2 m).
+void note_implausible_length(Leaf& leaf, const std::string& unit_advice);
+
+}  // namespace wilt::detail

@@ -1,0 +1,85 @@
+#include "wilt/import/read_leaf.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "wilt/core/error.hpp"
+#include "wilt/core/nearest.hpp"
+#include "wilt/import/drawn_leaf.hpp"
+#include "wilt/import/mesh_leaf.hpp"
+
+namespace wilt {
+namespace {
+
+bool one_of(const std::string& extension, const std::vector<std::string>& list) {
+  return std::find(list.begin(), list.end(), extension) != list.end();
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+void validate(const ReadOptions& options, bool drawing) {
+  if (options.vertices && (*options.vertices < 200 || *options.vertices > 1'000'000))
+    throw Error(ErrorCode::configuration,
+                fmt::format("--vertices {} must be from 200 to 1000000", *options.vertices));
+  if (options.petiole && !options.petiole->allFinite())
+    throw Error(ErrorCode::configuration, "--petiole must be two finite numbers X,Y");
+  if (options.nth < 1)
+    throw Error(ErrorCode::configuration, fmt::format("--leaf {} must be 1 or more", options.nth));
+  if (options.nth > 1 && !drawing)
+    throw Error(ErrorCode::configuration,
+                fmt::format("--leaf {}: only a drawing holds several leaves; a mesh or a JSON outline is one",
+                            options.nth));
+}
+
+Leaf read(const std::filesystem::path& file, const std::string& extension, const ReadOptions& options,
+          const Monitor& monitor) {
+  const std::string name = file.stem().string();
+  if (extension == ".svg")
+    return detail::leaf_from_outline(detail::read_svg_outline(file, options.nth), name, options, monitor);
+  if (extension == ".json")
+    return detail::leaf_from_outline(detail::read_json_outline(file), name, options, monitor);
+  return detail::read_mesh_leaf(file, options, monitor);
+}
+
+}  // namespace
+
+const std::vector<std::string>& leaf_file_extensions() {
+  static const std::vector<std::string> extensions{".obj", ".ply", ".stl", ".glb", ".gltf", ".svg", ".json"};
+  return extensions;
+}
+
+Leaf read_leaf(const std::filesystem::path& file, const ReadOptions& options, const Monitor& monitor) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string name = file.filename().string();
+  if (one_of(extension, {".jpg", ".jpeg", ".png", ".xyz", ".txt", ".csv"}))
+    throw Error(ErrorCode::input,
+                fmt::format("'{}': photos and scans cannot be read by this version; it reads meshes and "
+                            "outlines: {}",
+                            name, joined(leaf_file_extensions())));
+  if (!one_of(extension, leaf_file_extensions()))
+    throw Error(ErrorCode::input,
+                fmt::format("'{}': '{}' is no kind of leaf file{}; allowed are {}", name, extension,
+                            did_you_mean(extension, leaf_file_extensions()), joined(leaf_file_extensions())));
+  validate(options, extension == ".svg");
+  if (!std::filesystem::is_regular_file(file))
+    throw Error(ErrorCode::input, fmt::format("'{}' does not exist or is no file", file.string()));
+  Leaf leaf;
+  try {
+    leaf = read(file, extension, options, monitor);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::input || std::string(error.what()).rfind("'" + name + "'", 0) == 0) throw;
+    throw Error(ErrorCode::input, fmt::format("'{}': {}", name, error.what()));
+  }
+  for (const std::string& note : leaf.notes) monitor.say(note);
+  return leaf;
+}
+
+}  // namespace wilt
