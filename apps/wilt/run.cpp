@@ -88,7 +88,6 @@ WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& 
   Clock::time_point start = Clock::now();
   withered.leaf = load_leaf(request, monitor);
   withered.timings.leaf = seconds_since(start);
-  for (const std::string& note : withered.leaf.notes) terminal.say(note);
 
   withered.venation =
       find_venation(withered.leaf, species(config.species).secondary, venation_options(config), monitor);

@@ -46,7 +46,6 @@ void run(const Request& request, const GlobalOptions& options) {
   Terminal terminal(options);
   catch_interrupts();
   const Leaf leaf = load_leaf(request.leaf, terminal.monitor());
-  for (const std::string& note : leaf.notes) terminal.say(note);
   const double angle = smallest_angle(leaf.mesh, leaf.positions) * 180.0 / std::numbers::pi;
   terminal.say(fmt::format("{}: {} vertices, {} faces, {:.0f} mm, smallest angle {:.0f} degrees", leaf.name,
                            leaf.mesh.num_vertices(), leaf.mesh.num_faces(), 1e3 * leaf_length(leaf), angle));

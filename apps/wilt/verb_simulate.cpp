@@ -38,7 +38,7 @@ Config resolve_config(Request& request, bool seed_given) {
   config = default_config(species(preset));
   apply_toml(config, file, request.config_file);
   if (!request.model.empty()) set(config, "model", request.model);
-  if (request.leaf.vertices) config.vertices = *request.leaf.vertices;
+  if (request.leaf.vertices) set(config, "vertices", std::to_string(*request.leaf.vertices));
   if (seed_given) config.seed = static_cast<std::int64_t>(request.leaf.seed);
   if (request.iterations) set(config, "iterations", std::to_string(*request.iterations));
   if (request.frames) set(config, "frames", std::to_string(*request.frames));

@@ -43,7 +43,6 @@ void run(const Request& request, const GlobalOptions& options) {
   catch_interrupts();
   const Monitor monitor = terminal.monitor();
   const Leaf leaf = load_leaf(request.leaf, monitor);
-  for (const std::string& note : leaf.notes) terminal.say(note);
   const Venation venation = find_venation(leaf, species(leaf.species).secondary, {}, monitor);
   terminal.say(fmt::format("{}: {} tips, {} veins", leaf.name, venation.tips.size(), venation.veins.size()));
   for (const std::string& path : request.outputs) {

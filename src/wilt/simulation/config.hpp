@@ -15,12 +15,12 @@ namespace wilt {
 /// The resolved configuration of a run. Working units: the leaf's length is 8, masses and forces as in the
 /// paper.
 ///
-/// The meaning, unit and range of each member stand in the table of settings in config.cpp, which `wilt
+/// The meaning, unit and range of each member stand in the table in settings.cpp, which `wilt
 /// simulate --print-config` prints.
 struct Config {
   std::string model = "cell";
   std::string species = "generic";
-  std::int64_t vertices = 2000;
+  std::int64_t vertices = 0;
   std::int64_t seed = 1;
   std::int64_t iterations = 100;
   std::int64_t frames = 26;

@@ -1,0 +1,158 @@
+"""The command line as a user meets it: exit codes, messages on stderr, data on stdout, files whole or not at all.
+
+Oracles: the contract of the exit codes (0, 2, 3, 5), JSON parsers, byte comparison of files.
+"""
+import csv
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+WILT = sys.argv.pop(1)
+
+
+def wilt(*arguments, **options):
+    return subprocess.run([WILT, *map(str, arguments)], capture_output=True, text=True, timeout=600, **options)
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.dir = pathlib.Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def expect(self, code, *arguments, says="", **options):
+        result = wilt(*arguments, **options)
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertIn(says, result.stderr)
+        return result
+
+    def test_help_shows_examples_first_and_goes_to_stdout(self):
+        for verb in ([], ["demo"], ["species"], ["leaf"], ["veins"], ["simulate"], ["info"]):
+            result = self.expect(0, *verb, "--help")
+            self.assertLess(result.stdout.index("Examples:"), result.stdout.index("Options:"), verb)
+            self.assertEqual(result.stderr, "")
+        self.assertIn("Examples:", self.expect(0).stdout)
+        self.assertRegex(self.expect(0, "--version").stdout, r"^wilt \d+\.\d+\.\d+")
+
+    def test_wrong_command_lines_exit_2_with_the_nearest_word(self):
+        self.expect(2, "simulat", "maple", says="did you mean 'simulate'?")
+        self.expect(2, "simulate", "maple", "-o", "m.glb", "--itertions=5", says="did you mean '--iterations'?")
+        self.expect(2, "simulate", "maple", "-o", "m.glb", "--set", "water.humidty=1", says="did you mean 'water.humidity'?")
+        self.expect(2, "simulate", "maple", "-o", "m.glb", "--set", "dt=7", says="between 0.0001 and 1")
+        self.expect(2, "simulate", "maple", "-o", "m.glb", "--model", "papr", says="did you mean 'paper'?")
+        self.expect(2, "simulate", "maple", "-o", "m.xyz", says="results are .glb")
+        self.expect(2, "simulate", "maple", says="nothing would be written")
+        self.expect(2, "leaf", "maple", "--vertices", "10", "-o", "m.glb", says="--vertices")
+        self.expect(2, "veins", "maple", "-o", "veins.txt", says=".json, .svg or .obj")
+
+    def test_unusable_leaves_exit_3(self):
+        self.expect(3, "leaf", "mapel", "-o", "m.glb", says="did you mean 'maple'?")
+        self.expect(3, "leaf", self.dir / "none.obj", "-o", "m.glb", says="there is no file")
+        broken = self.dir / "broken.obj"
+        broken.write_text("v 0 0 0\nv 1 0 0\n")
+        self.expect(3, "leaf", broken, "-o", self.dir / "m.glb", says="broken.obj")
+        photo = self.dir / "leaf.jpg"
+        photo.write_bytes(b"not yet")
+        self.expect(3, "leaf", photo, "-o", self.dir / "m.glb", says=".svg")
+
+    def test_what_cannot_be_written_exits_5_before_the_work(self):
+        start = time.monotonic()
+        self.expect(5, "simulate", "maple", "-o", self.dir / "missing" / "m.glb", says="create it first")
+        self.assertLess(time.monotonic() - start, 60)
+        self.assertEqual(list(self.dir.iterdir()), [])
+
+    def test_json_on_stdout_and_messages_on_stderr(self):
+        species = json.loads(self.expect(0, "species", "--json").stdout)
+        self.assertEqual([s["name"] for s in species], ["maple", "poplar", "tilia", "ivy", "willow", "grape"])
+        leaf = json.loads(self.expect(0, "leaf", "ivy", "--vertices", 400, "--json").stdout)
+        self.assertAlmostEqual(leaf["vertices"], 400, delta=20)
+        self.assertGreaterEqual(leaf["smallest_angle_deg"], 20)
+        veins = json.loads(self.expect(0, "veins", "ivy", "--vertices", 400, "--json").stdout)
+        self.assertEqual(set(veins), {"leaf", "petiole", "margin", "tips", "veins"})
+        self.assertEqual(len(veins["margin"]["s"]), veins["leaf"]["boundary_vertices"])
+        quiet = self.expect(0, "leaf", "ivy", "--vertices", 400, "-o", self.dir / "ivy.glb", "-q")
+        self.assertEqual(quiet.stderr + quiet.stdout, "")
+
+    def test_report_and_forces_hold_what_the_contract_names(self):
+        report, forces = self.dir / "report.json", self.dir / "forces.csv"
+        self.expect(0, "simulate", "grape", "--vertices", 400, "--iterations", 10, "--frames", 3, "--report", report,
+                    "--forces", forces)
+        data = json.loads(report.read_text())
+        for key in ("wilt", "config", "leaf", "timings_s", "steps", "frames", "metrics", "positions_hash"):
+            self.assertIn(key, data)
+        self.assertEqual(set(data["timings_s"]), {"leaf", "geodesics", "embedding", "venation", "simulation", "output"})
+        self.assertEqual([f["iteration"] for f in data["frames"]], [0, 5, 10])
+        self.assertEqual(data["metrics"], data["frames"][-1])
+        self.assertEqual([s["iteration"] for s in data["steps"]], list(range(1, 11)))
+        for key in ("dt", "newton", "linear", "residual", "converged", "kinetic", "elastic", "bending", "water"):
+            self.assertIn(key, data["steps"][0])
+        rows = list(csv.DictReader(forces.open()))
+        self.assertEqual(list(rows[0]), ["iteration", "region", "elastic", "damping", "swelling", "external", "water", "pressure"])
+        self.assertEqual({r["region"] for r in rows}, {"tip", "vein", "margin", "mesophyll"})
+        self.assertEqual(len(rows), 4 * 11)
+        self.assertNotIn(str(self.dir), report.read_text())
+
+    def test_the_resolved_configuration_gives_the_same_bytes(self):
+        first, second, config = self.dir / "a.glb", self.dir / "b.glb", self.dir / "run.toml"
+        arguments = ["--vertices", 500, "--seed", 7, "--iterations", 12, "--set", "water.humidity=0.31"]
+        self.expect(0, "simulate", "willow", *arguments, "-o", first, "--threads", 1)
+        config.write_text(self.expect(0, "simulate", "willow", *arguments, "--print-config").stdout)
+        self.expect(0, "simulate", "willow", "--config", config, "-o", second, "--threads", 2)
+        self.assertEqual(first.read_bytes(), second.read_bytes())
+
+    def test_a_wrong_configuration_file_is_named_with_its_line(self):
+        config = self.dir / "run.toml"
+        config.write_text("dt = 0.1\n[water]\nhumidty = 0.5\n")
+        self.expect(2, "simulate", "ivy", "-o", self.dir / "m.glb", "--config", config, says="run.toml, line 3")
+        self.expect(3, "simulate", "ivy", "-o", self.dir / "m.glb", "--config", self.dir / "none.toml", says="none.toml")
+
+    def test_a_mesh_keeps_its_vertices_unless_told_otherwise(self):
+        obj = self.dir / "leaf.obj"
+        self.expect(0, "leaf", "poplar", "--vertices", 700, "-o", obj)
+        own = json.loads(self.expect(0, "leaf", obj, "--json").stdout)["vertices"]
+        self.assertAlmostEqual(own, 700, delta=35)
+        report = self.dir / "r.json"
+        self.expect(0, "simulate", obj, "--iterations", 2, "--report", report)
+        self.assertEqual(json.loads(report.read_text())["leaf"]["vertices"], own)
+        remeshed = json.loads(self.expect(0, "leaf", obj, "--vertices", 1500, "--json").stdout)["vertices"]
+        self.assertAlmostEqual(remeshed, 1500, delta=75)
+
+    def test_interrupting_keeps_what_was_computed_and_exits_130(self):
+        glb, report = self.dir / "m.glb", self.dir / "r.json"
+        process = subprocess.Popen([WILT, "simulate", "maple", "--vertices", "3000", "--iterations", "100000", "-o",
+                                    str(glb), "--report", str(report)], stderr=subprocess.PIPE, text=True)
+        time.sleep(8)
+        process.send_signal(signal.SIGINT)
+        _, messages = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 130, messages)
+        self.assertIn("interrupted after iteration", messages)
+        data = json.loads(report.read_text())
+        self.assertEqual(data["frames"][-1]["iteration"], len(data["steps"]))
+        self.assertTrue(glb.exists())
+        self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["m.glb", "r.json"])
+
+    def test_info_tells_what_a_result_holds(self):
+        glb = self.dir / "m.glb"
+        self.expect(0, "simulate", "tilia", "--vertices", 400, "--iterations", 4, "--frames", 3, "-o", glb)
+        info = json.loads(self.expect(0, "info", glb, "--json").stdout)
+        self.assertEqual(info["iterations"], [0, 2, 4])
+        self.assertEqual([m["name"] for m in info["meshes"]], ["blade", "stalk"])
+        self.assertEqual(info["config"]["species"], "tilia")
+
+    def test_demo_leaves_pictures_and_a_leaf(self):
+        result = self.expect(0, "demo", "-o", self.dir / "demo", "-q")
+        self.assertIn("wilt simulate", result.stdout)
+        self.assertEqual(sorted(os.listdir(self.dir / "demo")), ["maple.glb", "maple.png", "report.json", "stages.png"])
+        self.assertEqual((self.dir / "demo" / "maple.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
+
+if __name__ == "__main__":
+    unittest.main()
