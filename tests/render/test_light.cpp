@@ -95,6 +95,7 @@ TEST(Light, APlaneUnderTheSkyReflectsTheSkysCosineMean) {
   options.samples = 1024;
   options.lighting.sky = {{1.0, 0.2, 0.6}, {0.1, 0.8, 0.6}, Vec3::Zero()};
   const Vec3 expected = 0.5 * Vec3(0.7, 0.4, 0.6);
+  EXPECT_NEAR((0.5 * options.lighting.sky.mean_above() - expected).norm(), 0.0, 1e-15);
   const Radiance picture =
       render_radiance({{test::square(2.0, 0.0, Vec3::Constant(0.5), false)}, {}}, options);
   // Standard deviation of one sample is 0.15; of 64 x 1024 it is 0.0006.
