@@ -25,6 +25,7 @@ struct Candidate {
 
 constexpr std::size_t kMostCandidates = 100;
 constexpr double kLeastLeaf = 0.03;  // area of a leaf, in units of the largest leaf's
+constexpr double kMostStalk = 0.3;   // area of a stalk, in units of its leaf's
 
 bool is_grey(const svg::Paint& paint) {
   if (paint.kind != svg::Paint::Kind::colour) return false;
@@ -118,7 +119,7 @@ std::vector<Candidate> leaves_of(const std::vector<Candidate>& all, const Region
     const bool stalk =
         is_stalk_like(c) && std::any_of(leaves.begin(), leaves.end(), [&](const Candidate& leaf) {
           Vec2 foot;
-          return gap_between(leaf, c, foot) < 0.1 * leaf.size();
+          return c.area < kMostStalk * leaf.area && gap_between(leaf, c, foot) < 0.1 * leaf.size();
         });
     if (!known && !stalk) leaves.push_back(c);
   }
@@ -129,7 +130,8 @@ std::vector<Candidate> leaves_of(const std::vector<Candidate>& all, const Region
 void join_stalk(const Candidate& leaf, const std::vector<Candidate>& all, const RegionGrid& grid,
                 ChosenLeaf& chosen) {
   for (const Candidate& c : all) {
-    if (c.area > 0.3 * leaf.area || c.area < 0.002 * leaf.area || !is_stalk_like(c) || is_shadow(c, all))
+    if (c.area > kMostStalk * leaf.area || c.area < 0.002 * leaf.area || !is_stalk_like(c) ||
+        is_shadow(c, all))
       continue;
     if (grid.overlap(c.outline, leaf.outline) > 0.5 * c.area) continue;  // a vein
     Vec2 foot;
