@@ -44,14 +44,14 @@ TEST_F(JsonOutline, BecomesALeafInMetres) {
   EXPECT_LT((leaf.placement.translation - Vec3(std::sin(1.0), -std::cos(1.0), 0)).norm(), 0.08);
 }
 
-// Oracle: the given point, projected onto the margin.
+// Oracle: the given point, projected onto the margin; meshing may move it by a fraction of an edge (0.07).
 TEST_F(JsonOutline, TakesThePetioleFromTheFileOrTheUser) {
   const std::string with =
       fmt::format("{{\"outline\": {}, \"petiole\": [0, 1.1], \"mm_per_unit\": 40}}", egg());
-  EXPECT_LT((read_leaf(write("a.json", with), small()).placement.translation - Vec3(0, 1, 0)).norm(), 0.01);
+  EXPECT_LT((read_leaf(write("a.json", with), small()).placement.translation - Vec3(0, 1, 0)).norm(), 0.03);
   ReadOptions options = small();
   options.petiole = Vec2(0.52, 0.0);
-  EXPECT_LT((read_leaf(write("a.json", with), options).placement.translation - Vec3(0.5, 0, 0)).norm(), 0.02);
+  EXPECT_LT((read_leaf(write("a.json", with), options).placement.translation - Vec3(0.5, 0, 0)).norm(), 0.03);
 }
 
 // Oracle: a leaf with a hole has two boundary loops, and lacks the hole's area (0.04 of the square).

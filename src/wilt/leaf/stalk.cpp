@@ -194,10 +194,13 @@ StalkCut cut_stalk(const Outline& outline) {
   for (std::size_t i = 0; i < blade.size(); ++i)
     result.blade.margin.row(static_cast<int>(i)) = blade[i].transpose();
 
-  // From the cut to half a width before the end, whose shape says nothing about the centreline.
+  // From the cut to where the stalk has its width, half to three halves of it before its end.
   const int knots = 24, last = static_cast<int>(stalk.rungs.size()) - 1;
   int first = 0;
-  while (first < last && stalk.rungs[first].along < 0.5 * cut.along / stalk.slenderness) ++first;
+  const double width = cut.along / stalk.slenderness;
+  while (first < last && stalk.rungs[first].along < 1.5 * width &&
+         (stalk.rungs[first].along < 0.5 * width || stalk.rungs[first].width < 0.9 * width))
+    ++first;
   std::vector<int> chosen;
   for (int k = 0; k <= knots; ++k) {
     const int rung = first + (last - first) * (knots - k) / knots;
