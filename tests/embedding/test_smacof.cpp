@@ -31,7 +31,8 @@ double stress_by_definition(const Eigen::MatrixXd& distances, const Points2& poi
   return raw / scale;
 }
 
-// Oracle: analytic. Distances of points in the plane are met exactly, but for round-off, once nothing improves.
+// Oracle: analytic. Distances of points in the plane are met exactly, but for round-off, once nothing
+// improves.
 TEST(Smacof, RecoversPlanarPointsFromADisturbedStart) {
   const Points2 points = scattered(150, 2.0, 2);
   Points2 start = points + 0.05 * scattered(150, 1.0, 9);

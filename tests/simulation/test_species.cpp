@@ -29,7 +29,8 @@ void expect_every_step_converged(const SimulationResult& result) {
   for (const StepRow& step : result.steps) EXPECT_TRUE(step.converged) << step.iteration;
 }
 
-// Oracle: the acceptance figure, 0.002 of the leaf's length; the relief of a fresh leaf scores 0.0007 to 0.0014.
+// Oracle: the acceptance figure, 0.002 of the leaf's length; the relief of a fresh leaf scores 0.0007 to
+// 0.0014.
 TEST_P(EverySpecies, WrinklesWithSwellingAlone) {
   const SimulationResult result = run(0.0);
   expect_every_step_converged(result);

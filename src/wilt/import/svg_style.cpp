@@ -1,5 +1,7 @@
 #include "wilt/import/svg_style.hpp"
 
+#include <pugixml.hpp>
+
 #include <algorithm>
 #include <functional>
 #include <sstream>
