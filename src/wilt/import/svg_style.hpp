@@ -5,6 +5,10 @@
 #include <string>
 #include <vector>
 
+namespace pugi {
+class xml_node;
+}
+
 namespace wilt::svg {
 
 /// The properties of an element: presentation attributes, overridden by style sheets (element, class, id;
