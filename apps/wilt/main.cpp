@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <map>
+#include <memory>
 #include <new>
 
 #include "terminal.hpp"
@@ -23,6 +25,15 @@ constexpr const char* kIntroduction =
     "  wilt simulate drawing.svg -o mine.glb      the same for your own drawing (or mesh)\n"
     "  wilt veins ivy -o veins.svg                only the veins\n"
     "  wilt COMMAND --help                        what a command takes\n";
+
+// Lists a command by the first line of its description; the rest, its examples, stands in its own help.
+class BriefFormatter : public CLI::Formatter {
+ public:
+  std::string make_subcommand(const CLI::App* verb) const override {
+    const std::string description = verb->get_description();
+    return fmt::format("  {:<12}{}\n", verb->get_name(), description.substr(0, description.find('\n')));
+  }
+};
 
 void add_global_options(CLI::App& app, GlobalOptions& options) {
   static const std::map<std::string, Colour> kColours = {
@@ -64,7 +75,9 @@ int run(int argc, char** argv) {
   GlobalOptions options;
   CLI::App app(kIntroduction, "wilt");
   app.set_version_flag("--version", std::string("wilt ") + WILT_VERSION);
-  app.get_formatter()->column_width(34);
+  const auto formatter = std::make_shared<BriefFormatter>();
+  formatter->column_width(34);
+  app.formatter(formatter);
   app.fallthrough();
   app.require_subcommand(0, 1);
   add_global_options(app, options);
