@@ -16,11 +16,11 @@ std::filesystem::path shared_outline(const std::string& name) {
   return root / "data" / "outlines" / name;
 }
 
-// Tips of the margin: the farthest point from the petiole within a tenth of the margin to either side, at
+// Tips of the margin: the farthest point from the petiole within 3 % of the margin to either side, at
 // least 0.3 of the leaf's length away.
 int lobes(const Leaf& leaf) {
   const std::vector<VertexId>& margin = margin_loop(leaf.mesh, leaf.positions);
-  const int n = static_cast<int>(margin.size()), window = n / 20;
+  const int n = static_cast<int>(margin.size()), window = 3 * n / 100;
   const auto far = [&](int i) { return leaf.positions.row(margin[((i % n) + n) % n]).norm(); };
   int count = 0;
   for (int i = 0; i < n; ++i) {
