@@ -24,9 +24,9 @@ std::vector<int> nearest_vein_cell(const SurfaceMesh& mesh, const Points3& posit
     front.emplace(0.0, v);
   }
   while (!front.empty()) {
-    const auto [reached, index] = front.top();
+    const double reached = front.top().first;
+    const VertexId v(front.top().second);
     front.pop();
-    const VertexId v(index);
     if (reached > distance[v]) continue;
     mesh.for_outgoing(v, [&](HalfedgeId h) {
       const VertexId w = mesh.to(h);
