@@ -1,7 +1,6 @@
 # One target per room: wilt_room(NAME SOURCES a.cpp ... ROOMS core mesh ... LIBRARIES fmt::fmt-header-only ...)
 # ROOMS are the rooms that its public headers include; LIBRARIES are private to its sources.
 add_library(wilt_options INTERFACE)
-target_compile_features(wilt_options INTERFACE cxx_std_20)
 # No contraction: the same bytes on every processor of one class.
 target_compile_options(wilt_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
@@ -24,6 +23,7 @@ function(wilt_room name)
   set_target_properties(wilt_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   target_include_directories(wilt_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(wilt_${name} PUBLIC cxx_std_20)
   list(TRANSFORM ROOM_ROOMS PREPEND wilt::)
   target_link_libraries(wilt_${name} PUBLIC Eigen3::Eigen ${ROOM_ROOMS}
     PRIVATE $<BUILD_INTERFACE:wilt_options> ${ROOM_LIBRARIES})
