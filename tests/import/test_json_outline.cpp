@@ -38,7 +38,11 @@ TEST_F(JsonOutline, BecomesALeafInMetres) {
   EXPECT_NEAR(leaf.mesh.num_vertices(), 300, 15);
   EXPECT_NEAR(leaf_length(leaf), 0.080, 0.002);  // half an edge at either end
   EXPECT_EQ(leaf.positions.row(leaf.petiole).norm(), 0.0);
-  EXPECT_NEAR(area_vector(leaf.mesh, leaf.positions).z(), surface_area(leaf.mesh, leaf.positions), 1e-12);
+  // It faces up, and has the gentle relief of a fresh leaf: slopes of some tenths cost a few percent of the
+  // area.
+  const double area = surface_area(leaf.mesh, leaf.positions);
+  EXPECT_GT(area_vector(leaf.mesh, leaf.positions).z(), 0.93 * area);
+  EXPECT_LT(area_vector(leaf.mesh, leaf.positions).z(), 0.9999 * area);
   EXPECT_EQ(leaf.skin.faces.rows(), leaf.mesh.num_faces());
   // The base lies at -(turned y axis) in the file.
   EXPECT_LT((leaf.placement.translation - Vec3(std::sin(1.0), -std::cos(1.0), 0)).norm(), 0.08);

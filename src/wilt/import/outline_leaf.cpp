@@ -3,6 +3,7 @@
 #include "wilt/import/drawn_leaf.hpp"
 #include "wilt/import/mesh_leaf.hpp"
 #include "wilt/leaf/petiole.hpp"
+#include "wilt/leaf/relief.hpp"
 #include "wilt/mesh/validate.hpp"
 
 namespace wilt::detail {
@@ -64,6 +65,18 @@ Vec2 settle_petiole(DrawnLeaf& drawn, StalkCut& cut) {
   return at;
 }
 
+// A drawing is flat, and a flat sheet cannot buckle: it gets the gentle shape of a fresh leaf, its midrib
+// running to the apex.
+void add_relief(Leaf& leaf) {
+  const double length = leaf_length(leaf);
+  const Relief relief({Vec2(0.0, 1.0)}, leaf.seed);
+  const double base = relief(Vec2::Zero());
+  for (const VertexId v : leaf.mesh.vertices()) {
+    const Vec2 p = leaf.positions.row(v).head<2>().transpose() / length;
+    leaf.positions(int(v), 2) = length * (relief(p) - base);
+  }
+}
+
 void place_stalk(Leaf& leaf, const StalkCut& cut) {
   const int n = static_cast<int>(cut.centreline.rows());
   leaf.stalk.centreline.resize(n, 3);
@@ -87,6 +100,7 @@ Leaf leaf_from_outline(DrawnLeaf drawn, const std::string& name, const ReadOptio
   StalkCut cut = cut_stalk(drawn.outline);
   MeshingOptions meshing;
   meshing.vertices = options.vertices.value_or(meshing.vertices);
+  meshing.smallest_angle += kReliefReserve;
   meshing.keep = {settle_petiole(drawn, cut)};
   PlanarMesh planar = mesh_outline(cut.blade, meshing, monitor);
 
@@ -100,6 +114,7 @@ Leaf leaf_from_outline(DrawnLeaf drawn, const std::string& name, const ReadOptio
   file_positions.leftCols<2>() = planar.positions;
   validate_blade(leaf.mesh, file_positions);
   place_in_leaf_frame(leaf, file_positions, planar.kept.front(), drawn.mm_per_unit / 1000.0);
+  add_relief(leaf);
   if (cut.found) place_stalk(leaf, cut);
   leaf.skin = planar_skin(leaf.mesh, leaf.positions);
   note_implausible_length(
