@@ -1,5 +1,7 @@
 #include "wilt/simulation/petiole_droop.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -12,6 +14,7 @@ namespace {
 
 constexpr double kStalkMassShare = 0.1;      // of the blade's mass
 constexpr double kReferenceGravity = 0.004;  // the gravity that petiole_stiffness is stated for
+constexpr double kBalanced = 1e-5;           // torque out of balance that nobody sees, of the loads'
 constexpr int kUndrawnPoints = 9;
 constexpr double kUndrawnLength = 0.5;   // / S
 constexpr double kUndrawnRadius = 0.01;  // / S
@@ -74,9 +77,12 @@ void PetioleDroop::advance(const Eigen::VectorXd& mass, double turgor, const Poi
   if (!held_ || gravity_.isZero()) return;
   const double share = 1.0 - turgor_loss_ * (1.0 - std::clamp(turgor, 0.0, 1.0));
   const RodEquilibrium balance = rod_.solve(loads(mass, x), share * fresh_stiffness_);
-  if (!balance.converged)
-    throw Error(ErrorCode::simulation,
-                "the petiole found no balance under the blade; raise gravity.petiole_stiffness");
+  if (!(balance.residual < kBalanced))
+    throw Error(
+        ErrorCode::simulation,
+        fmt::format("the petiole found no balance under the blade (torque out of balance: {:.1e}); raise "
+                    "gravity.petiole_stiffness",
+                    balance.residual));
   rotation_ = balance.rotation;
   centreline_ = balance.centreline;
 }
