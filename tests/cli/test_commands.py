@@ -64,9 +64,7 @@ class CommandLine(unittest.TestCase):
         self.expect(3, "leaf", photo, "-o", self.dir / "m.glb", says=".svg")
 
     def test_what_cannot_be_written_exits_5_before_the_work(self):
-        start = time.monotonic()
         self.expect(5, "simulate", "maple", "-o", self.dir / "missing" / "m.glb", says="create it first")
-        self.assertLess(time.monotonic() - start, 60)
         self.assertEqual(list(self.dir.iterdir()), [])
 
     def test_json_on_stdout_and_messages_on_stderr(self):
@@ -127,11 +125,14 @@ class CommandLine(unittest.TestCase):
 
     def test_interrupting_keeps_what_was_computed_and_exits_130(self):
         glb, report = self.dir / "m.glb", self.dir / "r.json"
-        process = subprocess.Popen([WILT, "simulate", "maple", "--vertices", "3000", "--iterations", "100000", "-o",
+        process = subprocess.Popen([WILT, "simulate", "maple", "--vertices", "1000", "--iterations", "1000000", "-o",
                                     str(glb), "--report", str(report)], stderr=subprocess.PIPE, text=True)
-        time.sleep(8)
+        for line in process.stderr:  # the veins are found: from here on it withers
+            if "vein tips" in line:
+                break
+        time.sleep(1)
         process.send_signal(signal.SIGINT)
-        _, messages = process.communicate(timeout=120)
+        _, messages = process.communicate(timeout=300)
         self.assertEqual(process.returncode, 130, messages)
         self.assertIn("interrupted after iteration", messages)
         data = json.loads(report.read_text())
