@@ -11,6 +11,7 @@
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/core/nearest.hpp"
+#include "wilt/output/version.hpp"
 
 namespace wilt::cli {
 namespace {
@@ -74,7 +75,7 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error,
 int run(int argc, char** argv) {
   GlobalOptions options;
   CLI::App app(kIntroduction, "wilt");
-  app.set_version_flag("--version", std::string("wilt ") + WILT_VERSION);
+  app.set_version_flag("--version", std::string("wilt ") + version());
   const auto formatter = std::make_shared<BriefFormatter>();
   formatter->column_width(34);
   app.formatter(formatter);
