@@ -1,4 +1,4 @@
-// Sample points, noise, and the search for the nearest vein.
+// Sample points, and the search for the nearest vein.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,6 @@
 
 #include "render/scenes.hpp"
 #include "wilt/core/random.hpp"
-#include "wilt/render/detail.hpp"
 #include "wilt/render/rays.hpp"
 #include "wilt/render/sampling.hpp"
 
@@ -47,26 +46,6 @@ TEST(Sampling, DirectionsHaveTheirDensity) {
     EXPECT_GE(sample_cap(sampler.next(), 0.1).z(), std::cos(0.1) - 1e-12);
   }
   EXPECT_NEAR(sum / 4096, 2.0 / 3.0, 1e-3);  // error of 4096 stratified points
-}
-
-// Finite difference of the value, step 1e-6: error about 1e-9.
-TEST(Noise, GradientsAreThoseOfTheValues) {
-  Random random(13, "noise");
-  for (int trial = 0; trial < 200; ++trial) {
-    const Vec2 p(random.uniform(-9.0, 9.0), random.uniform(-9.0, 9.0));
-    const double h = 1e-6;
-    for (int axis = 0; axis < 2; ++axis) {
-      const Vec2 step = h * Vec2::Unit(axis);
-      EXPECT_NEAR(value_noise(p, 3).gradient[axis],
-                  (value_noise(p + step, 3).value - value_noise(p - step, 3).value) / (2 * h), 1e-6);
-      const double difference = cell_wall(p + step, 3).distance - cell_wall(p - step, 3).distance;
-      if (std::abs(difference) < 10 * h) {  // else another pair of cells on either side
-        EXPECT_NEAR(cell_wall(p, 3).gradient[axis], difference / (2 * h), 1e-3);
-      }
-    }
-    EXPECT_LE(std::abs(value_noise(p, 3).value), 1.0);
-    EXPECT_GE(cell_wall(p, 3).distance, 0.0);
-  }
 }
 
 // Differential: every segment, one by one.

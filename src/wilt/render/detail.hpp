@@ -7,20 +7,6 @@
 
 namespace wilt {
 
-/// Smooth noise in the plane with its gradient: cubic between random values in [-1, 1] on the integers.
-struct Noise {
-  double value = 0.0;
-  Vec2 gradient = Vec2::Zero();
-};
-Noise value_noise(const Vec2& p, std::uint64_t seed);
-
-/// Distance to the nearest wall between the cells of random points, one in each unit square (Worley).
-struct CellWall {
-  double distance = 0.0;       ///< to the line half-way between the two nearest points
-  Vec2 gradient = {0.0, 0.0};  ///< of the distance
-};
-CellWall cell_wall(const Vec2& p, std::uint64_t seed);
-
 /// A relief and colour factors; a blade is about 1 across in the coordinates of `p`.
 struct FineDetail {
   Vec2 slope = Vec2::Zero();  ///< gradient of the height
