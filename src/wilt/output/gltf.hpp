@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wilt/leaf/leaf.hpp"
+#include "wilt/simulation/config.hpp"
 #include "wilt/simulation/result.hpp"
 #include "wilt/venation/venation.hpp"
 
@@ -23,6 +24,11 @@ struct GlbScene {
   std::vector<Vec3> stalk_colours{};  ///< linear RGB, of the whole stalk: none, one, or one per frame
   std::string texture{};              ///< bytes of a PNG or JPEG that multiplies the colours; empty: white
 };
+
+/// The scene of a run: its frames with the colours of their states, veins and configuration. Refers to
+/// `leaf`, `venation` and `frames`.
+GlbScene glb_scene(const Leaf& leaf, const Venation& venation, const Config& config,
+                   const std::vector<Frame>& frames);
 
 struct GlbOptions {
   double seconds = 4.0;   ///< length of the clip, > 0; time is proportional to the iteration
@@ -71,6 +77,7 @@ struct GlbFile {
   std::vector<double> times;    ///< seconds, one per frame (one frame: 0)
   std::vector<int> iterations;  ///< one per frame
   std::vector<GlbVein> veins;
+  std::string texture;    ///< bytes of a PNG or JPEG that multiplies the blade's colours
   std::string generator;  ///< "wilt 0.1.0"
   std::string extras;     ///< JSON text of asset.extras.wilt
 };

@@ -122,6 +122,16 @@ std::vector<double> read_times(const Model& model, const tinygltf::Model& gltf) 
   return {times.data(), times.data() + times.size()};
 }
 
+std::string read_texture(const tinygltf::Model& gltf) {
+  if (gltf.images.empty()) return {};
+  const tinygltf::BufferView& view =
+      Model::at(gltf.bufferViews, gltf.images.front().bufferView, "buffer view");
+  const std::vector<unsigned char>& data = Model::at(gltf.buffers, view.buffer, "buffer").data;
+  if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
+    refuse("the texture reaches beyond the file's data");
+  return {reinterpret_cast<const char*>(data.data()) + view.byteOffset, view.byteLength};
+}
+
 Points3 points_from(const Json& rows) {
   Points3 points(static_cast<int>(rows.size()), 3);
   for (int i = 0; i < points.rows(); ++i) {
@@ -177,6 +187,7 @@ GlbFile read_all(std::string_view bytes, std::string_view json) {
   GlbFile file;
   for (const tinygltf::Mesh& mesh : gltf.meshes) file.meshes.push_back(read_mesh(model, mesh));
   if (file.meshes.empty()) refuse("it has no mesh");
+  file.texture = read_texture(gltf);
   file.times = read_times(model, gltf);
   read_extras(document, file);
   for (const GlbMesh& mesh : file.meshes) {
