@@ -79,11 +79,11 @@ int attribute(const std::map<std::string, int>& attributes, const std::string& n
   return found == attributes.end() ? -1 : found->second;
 }
 
-// The base and then base + target for every morph target that has the attribute.
+// Base + target for every morph target; the base alone where there are none that have the attribute.
 std::vector<Points3> morphed(const Model& model, const tinygltf::Primitive& primitive,
                              const std::string& name) {
   const Points3 base = model.floats(attribute(primitive.attributes, name), 3);
-  std::vector<Points3> frames{base};
+  std::vector<Points3> frames;
   for (const auto& target : primitive.targets) {
     const int accessor = attribute(target, name);
     if (accessor < 0) continue;
@@ -91,6 +91,7 @@ std::vector<Points3> morphed(const Model& model, const tinygltf::Primitive& prim
     if (difference.rows() != base.rows()) refuse("a morph target differs in size from its mesh");
     frames.push_back(base + difference);
   }
+  if (frames.empty()) frames.push_back(base);
   return frames;
 }
 

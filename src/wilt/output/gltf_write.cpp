@@ -93,7 +93,7 @@ void add_mesh(Builder& builder, const Moving& moving, const std::vector<Frame>& 
   if (moving.uv.rows() > 0)
     primitive.attributes["TEXCOORD_0"] = builder.add_floats(moving.uv.cast<float>(), kTarget, false);
   if (moving.colour_count > 0) {
-    colours = moving.colours(0).cast<float>();
+    colours = moving.colours(moving.colour_count - 1).cast<float>();
     primitive.attributes["COLOR_0"] = builder.add_floats(colours, kTarget, false);
   }
   if (moving.water.size() > 0)
@@ -101,7 +101,7 @@ void add_mesh(Builder& builder, const Moving& moving, const std::vector<Frame>& 
   primitive.indices = builder.add_indices(moving.faces);
 
   std::vector<tinygltf::Value> names;
-  for (int k = 1; k < static_cast<int>(frames.size()); ++k) {
+  for (int k = 0; frames.size() > 1 && k < static_cast<int>(frames.size()); ++k) {
     const Shape shape = moving.shape(k);
     std::map<std::string, int> target;
     target["POSITION"] = builder.add_floats(difference(shape.positions, positions), kTarget, true);
@@ -114,9 +114,12 @@ void add_mesh(Builder& builder, const Moving& moving, const std::vector<Frame>& 
   tinygltf::Mesh mesh;
   mesh.name = moving.name;
   mesh.primitives = {primitive};
-  // The names of the targets stand where Blender and three.js look for them.
-  if (!names.empty())
+  if (!names.empty()) {
+    mesh.weights.assign(names.size(), 0.0);
+    mesh.weights.back() = 1.0;
+    // The names of the targets stand where Blender and three.js look for them.
     mesh.extras = tinygltf::Value(tinygltf::Value::Object{{"targetNames", tinygltf::Value(names)}});
+  }
   builder.model.meshes.push_back(mesh);
 
   tinygltf::Node node;
@@ -126,16 +129,16 @@ void add_mesh(Builder& builder, const Moving& moving, const std::vector<Frame>& 
   builder.model.scenes.front().nodes.push_back(node.mesh);
 }
 
-// Key frame k shows frame k: the weight of target k - 1 is one there, all others are zero.
+// Key frame k shows frame k: the weight of target k is one there, all others are zero.
 void add_animation(Builder& builder, const std::vector<Frame>& frames, double seconds) {
   const int count = static_cast<int>(frames.size());
   if (count < 2) return;
   const double first = frames.front().iteration, last = frames.back().iteration;
-  Floats times(count, 1), weights = Floats::Zero(count * (count - 1), 1);
+  Floats times(count, 1), weights = Floats::Zero(count * count, 1);
   for (int k = 0; k < count; ++k) {
     times(k) = static_cast<float>(seconds * (frames[static_cast<std::size_t>(k)].iteration - first) /
                                   (last - first));
-    if (k > 0) weights(k * (count - 1) + k - 1) = 1.0F;
+    weights(k * count + k) = 1.0F;
   }
   tinygltf::AnimationSampler sampler;
   sampler.input = builder.add_floats(times, 0, true);
@@ -234,6 +237,7 @@ std::vector<Frame> rest_frames(const Leaf& leaf) {
   Frame frame;
   frame.positions = leaf.positions;
   frame.stalk = leaf.stalk.centreline;
+  frame.dryness = Eigen::VectorXd::Zero(leaf.positions.rows());
   return {frame};
 }
 
