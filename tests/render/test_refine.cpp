@@ -69,7 +69,8 @@ TEST(Refine, RoundsASmoothMarginAndKeepsCorners) {
     Surface surface = disc(corners);
     refine(surface, 1);
     double error = 0.0;
-    for (const int v : margin_loops(surface.positions, surface.faces).at(0))
+    const auto loops = margin_loops(surface.positions, surface.faces);
+    for (const int v : loops.at(0))
       error = std::max(error, std::abs(surface.positions.row(v).norm() - 1.0));
     if (last > 0.0) {
       EXPECT_NEAR(last / error, 16.0, 4.0);
