@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "wilt/core/error.hpp"
 #include "wilt/output/file.hpp"
+#include "wilt/output/image_codec.hpp"
 #include "wilt/render/image.hpp"
 
 #define STBI_WRITE_NO_STDIO
@@ -14,6 +17,11 @@
 #pragma GCC diagnostic pop
 
 namespace wilt {
+
+Image decode_image(std::string_view bytes) {
+  Picture picture = decode_picture(bytes);
+  return {picture.width, picture.height, std::move(picture.rgb)};
+}
 
 std::vector<std::uint8_t> encode_png(const Image& image) {
   if (image.width < 1 || image.height < 1 ||

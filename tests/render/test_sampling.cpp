@@ -1,4 +1,4 @@
-// Sample points, and the search for the nearest vein.
+// Sample points and directions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,6 @@
 
 #include "render/scenes.hpp"
 #include "wilt/core/random.hpp"
-#include "wilt/render/rays.hpp"
 #include "wilt/render/sampling.hpp"
 
 namespace wilt {
@@ -46,43 +45,6 @@ TEST(Sampling, DirectionsHaveTheirDensity) {
     EXPECT_GE(sample_cap(sampler.next(), 0.1).z(), std::cos(0.1) - 1e-12);
   }
   EXPECT_NEAR(sum / 4096, 2.0 / 3.0, 1e-3);  // error of 4096 stratified points
-}
-
-// Differential: every segment, one by one.
-TEST(World, FindsTheHighestVeinOfAll) {
-  Random random(17, "veins");
-  Scene scene{{test::square(1.0, 0.0, Vec3::Constant(0.5), true)}, {}};
-  for (int i = 0; i < 12; ++i) {
-    VeinLine vein;
-    vein.positions = Points3::Zero(4, 3);
-    for (int k = 0; k < 4; ++k)
-      for (int axis = 0; axis < 3; ++axis) vein.positions(k, axis) = random.uniform(-0.7, 0.7);
-    vein.radius = random.uniform(0.02, 0.1);
-    scene.veins.push_back(vein);
-  }
-  const World world(scene);
-  int found = 0;
-  for (int trial = 0; trial < 500; ++trial) {
-    const Vec3 p(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5));
-    double nearest = 2.5;
-    int expected = -1;
-    for (int i = 0; i < 12; ++i) {
-      const VeinLine& vein = world.scene().veins[i];
-      for (int k = 0; k < 3; ++k) {
-        const Vec3 a = vein.positions.row(k).transpose(), ab = vein.positions.row(k + 1).transpose() - a;
-        const double t = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
-        const double radius = vein.radius * (1.0 - (2.0 / 3.0) * (k + t) / 3.0);
-        if ((p - a - t * ab).norm() / radius < nearest)
-          nearest = (p - a - t * ab).norm() / radius, expected = i;
-      }
-    }
-    const auto hit = world.nearest_vein(p, 2.5);
-    ASSERT_EQ(hit ? hit->vein : -1, expected) << trial;
-    if (!hit) continue;
-    ++found;
-    EXPECT_NEAR(hit->distance / hit->radius, nearest, 1e-9);
-  }
-  EXPECT_GT(found, 100);
 }
 
 }  // namespace
