@@ -61,7 +61,7 @@ TEST(GlbSceneOfARun, CarriesItsTextureThroughTheFile) {
   const GlbScene scene = glb_scene(run.leaf, run.venation, run.config, run.frames);
   const GlbFile file = parse_glb(glb_bytes(scene), "grape");
   EXPECT_EQ(file.texture, scene.texture);
-  const Picture picture = decode_picture(file.texture);
+  const Image picture = decode_image(file.texture);
   EXPECT_EQ(picture.width, 128);
   EXPECT_EQ(picture.height, 128);
   ASSERT_EQ(file.meshes.front().colours.size(), 3u);

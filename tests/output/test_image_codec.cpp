@@ -10,8 +10,8 @@
 namespace wilt {
 namespace {
 
-Picture gradient(int width, int height) {
-  Picture picture{width, height, {}};
+Image gradient(int width, int height) {
+  Image picture{width, height, {}};
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       for (const int value : {4 * x, 3 * y, 255 - 2 * x - y})
@@ -21,10 +21,10 @@ Picture gradient(int width, int height) {
 
 // Round trip: quality 95 keeps a smooth picture within 4 of 255.
 TEST(ImageCodec, JpegComesBack) {
-  const Picture picture = gradient(61, 40);
+  const Image picture = gradient(61, 40);
   const std::string bytes = encode_jpeg(picture);
   EXPECT_EQ(bytes.substr(0, 2), "\xff\xd8");
-  const Picture back = decode_picture(bytes);
+  const Image back = decode_image(bytes);
   ASSERT_EQ(back.width, 61);
   ASSERT_EQ(back.height, 40);
   for (std::size_t i = 0; i < picture.rgb.size(); ++i)
@@ -34,10 +34,10 @@ TEST(ImageCodec, JpegComesBack) {
 
 // Negative: bytes that are no picture, and a picture that is cut off.
 TEST(ImageCodec, RefusesWhatIsNoPicture) {
-  EXPECT_THROW(decode_picture(""), Error);
-  EXPECT_THROW(decode_picture("v 0 0 0"), Error);
+  EXPECT_THROW(decode_image(""), Error);
+  EXPECT_THROW(decode_image("v 0 0 0"), Error);
   const std::string bytes = encode_jpeg(gradient(32, 32));
-  EXPECT_THROW(decode_picture(bytes.substr(0, 20)), Error);
+  EXPECT_THROW(decode_image(bytes.substr(0, 20)), Error);
   EXPECT_THROW(encode_jpeg({4, 4, {1, 2, 3}}), std::logic_error);
 }
 

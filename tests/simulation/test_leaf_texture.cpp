@@ -100,14 +100,14 @@ Case make_case(const std::string& name) {
   return c;
 }
 
-LeafTexture bake(const Case& c, double dryness, int size, const Vec3& gain = Vec3::Ones()) {
+Image bake(const Case& c, double dryness, int size, const Vec3& gain = Vec3::Ones()) {
   return leaf_texture(c.leaf, c.venation, c.pattern, TissueColours(c.pigments),
                       Eigen::VectorXd::Constant(c.leaf.positions.rows(), dryness), gain, size);
 }
 
 // Mean linear colour of the covered texels.
-Vec3 mean_colour(const Case& c, const LeafTexture& texture) {
-  const auto raster = uv_raster(c.leaf.skin, texture.size);
+Vec3 mean_colour(const Case& c, const Image& texture) {
+  const auto raster = uv_raster(c.leaf.skin, texture.width);
   Vec3 sum = Vec3::Zero();
   int count = 0;
   for (std::size_t i = 0; i < raster->face.size(); ++i) {
@@ -145,7 +145,7 @@ TEST(LeafTexture, GainMultipliesLinearLight) {
 TEST(LeafTexture, ShowsTheMidrib) {
   const Case c = make_case("tilia");
   const int size = 512;
-  const LeafTexture texture = bake(c, 0.0, size);
+  const Image texture = bake(c, 0.0, size);
   const Vec3 mean = mean_colour(c, texture);
   const auto& path = c.venation.veins.front().path.points;
   Vec3 sum = Vec3::Zero();
@@ -165,7 +165,7 @@ TEST(LeafTexture, ShowsTheMidrib) {
 // Oracle: the bytes on one thread.
 TEST(LeafTexture, GivesTheSameBytesOnAnyNumberOfThreads) {
   const Case c = make_case("grape");
-  LeafTexture one;
+  Image one;
   {
     const ThreadLimit limit(1);
     one = bake(c, 0.8, 200);
@@ -178,9 +178,9 @@ TEST(LeafTexture, GivesTheSameBytesOnAnyNumberOfThreads) {
 
 TEST(LeafTexture, IsEmptyWhenItCannotBe) {
   Case c = make_case("ivy");
-  EXPECT_EQ(bake(c, 0.5, 0).size, 0);
+  EXPECT_EQ(bake(c, 0.5, 0).width, 0);
   c.leaf.skin.uv.array() += 0.5;
-  EXPECT_EQ(bake(c, 0.5, 64).size, 0);
+  EXPECT_EQ(bake(c, 0.5, 64).width, 0);
 }
 
 }  // namespace

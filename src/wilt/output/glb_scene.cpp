@@ -4,6 +4,7 @@
 #include "wilt/leaf/species.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/output/image_codec.hpp"
+#include "wilt/simulation/leaf_relief.hpp"
 #include "wilt/simulation/leaf_texture.hpp"
 #include "wilt/simulation/senescence.hpp"
 
@@ -36,10 +37,12 @@ GlbScene glb_scene(const Leaf& leaf, const Venation& venation, const Config& con
   const SenescencePattern pattern = senescence_pattern(leaf, venation, pigments);
   for (const Frame& frame : frames) scene.colours.push_back(leaf_colours(pattern, tissue, frame.dryness));
   const Vec3 gain = texture_gain(scene.colours);
-  const LeafTexture texture = leaf_texture(leaf, venation, pattern, tissue, frames.back().dryness, gain,
-                                           static_cast<int>(config.texture.size));
-  if (texture.size == 0) return scene;
-  scene.texture = encode_jpeg({texture.size, texture.size, texture.rgb});
+  const auto size = static_cast<int>(config.texture.size);
+  const Eigen::VectorXd& dryness = frames.back().dryness;
+  const Image texture = leaf_texture(leaf, venation, pattern, tissue, dryness, gain, size);
+  if (texture.empty()) return scene;
+  scene.texture = encode_jpeg(texture);
+  scene.normal_texture = encode_jpeg(leaf_relief(leaf, venation, dryness, size));
   const Points3 shown = scene.colours.back().cwiseMax(kDarkest) * gain.asDiagonal();
   for (Points3& frame : scene.colours) frame = frame.cwiseMax(kDarkest).cwiseQuotient(shown).cwiseMin(1.0);
   return scene;

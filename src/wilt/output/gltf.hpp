@@ -23,6 +23,7 @@ struct GlbScene {
   std::vector<Points3> colours{};
   std::vector<Vec3> stalk_colours{};  ///< linear RGB, of the whole stalk: none, one, or one per frame
   std::string texture{};              ///< bytes of a PNG or JPEG that multiplies the colours; empty: white
+  std::string normal_texture{};       ///< the same of a tangent-space normal map of the blade; empty: none
 };
 
 /// The scene of a run: its frames with the colours of their states, veins and configuration. Refers to
@@ -84,9 +85,10 @@ struct GlbFile {
   std::vector<double> times;    ///< seconds, one per frame (one frame: 0)
   std::vector<int> iterations;  ///< one per frame
   std::vector<GlbVein> veins;
-  std::string texture;    ///< bytes of a PNG or JPEG that multiplies the blade's colours
-  std::string generator;  ///< "wilt 0.1.0"
-  std::string extras;     ///< JSON text of asset.extras.wilt
+  std::string texture;         ///< bytes of a PNG or JPEG that multiplies the blade's colours
+  std::string normal_texture;  ///< the same of its normal map, or empty
+  std::string generator;       ///< "wilt 0.1.0"
+  std::string extras;          ///< JSON text of asset.extras.wilt
 };
 
 /// Reads what write_glb() wrote. Throws Error{input}, naming `name` (the path), for anything else.

@@ -178,16 +178,25 @@ int add_material(Builder& builder, const std::string& name) {
   return static_cast<int>(builder.model.materials.size()) - 1;
 }
 
-void add_texture(Builder& builder, const std::string& bytes, int material) {
+/// The number of the texture.
+int add_texture(Builder& builder, const std::string& bytes, const char* name) {
   tinygltf::Image image;
-  image.name = "blade";
+  image.name = name;
   image.mimeType = bytes.substr(0, 2) == "\xff\xd8" ? "image/jpeg" : "image/png";
   image.bufferView = builder.add_view(bytes.data(), bytes.size(), 0);
   builder.model.images.push_back(image);
   tinygltf::Texture texture;
-  texture.source = 0;
+  texture.source = static_cast<int>(builder.model.images.size()) - 1;
   builder.model.textures.push_back(texture);
-  builder.model.materials[static_cast<std::size_t>(material)].pbrMetallicRoughness.baseColorTexture.index = 0;
+  return static_cast<int>(builder.model.textures.size()) - 1;
+}
+
+void add_textures(Builder& builder, const GlbScene& scene, int material) {
+  const int colour = add_texture(builder, scene.texture.empty() ? white_pixel() : scene.texture, "colour");
+  tinygltf::Material& blade = builder.model.materials[static_cast<std::size_t>(material)];
+  blade.pbrMetallicRoughness.baseColorTexture.index = colour;
+  if (!scene.normal_texture.empty())
+    blade.normalTexture.index = add_texture(builder, scene.normal_texture, "relief");
 }
 
 // tinygltf writes the model. The extras are put in here, since its values have no 64-bit integers (seeds) and
@@ -251,7 +260,7 @@ std::string glb_bytes(const GlbScene& scene, const GlbOptions& options) {
   builder.model.defaultScene = 0;
   const int blade = add_material(builder, "blade");
   add_mesh(builder, moving_blade(scene), scene.frames, blade);
-  add_texture(builder, scene.texture.empty() ? white_pixel() : scene.texture, blade);
+  add_textures(builder, scene, blade);
   if (scene.frames.front().stalk.rows() >= 2)
     add_mesh(builder, moving_stalk(scene, options.stalk_sides), scene.frames, add_material(builder, "stalk"));
   add_animation(builder, scene.frames, options.seconds);

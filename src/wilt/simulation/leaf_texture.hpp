@@ -2,27 +2,19 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
-#include <vector>
 
+#include "wilt/core/image.hpp"
 #include "wilt/leaf/leaf.hpp"
 #include "wilt/simulation/senescence.hpp"
 #include "wilt/venation/venation.hpp"
 
 namespace wilt {
 
-/// 8-bit sRGB, row by row from the top left; linear values are the blade's reflected colour times `gain`.
-struct LeafTexture {
-  int size = 0;  ///< texels on a side; 0: none
-  std::vector<std::uint8_t> rgb;
-};
-
 /// The upper side of the blade at a state of dryness (#V, 0 to 1), `size` texels on a side (16 to 8192, 0:
 /// none), every texel filled. Linear colours are multiplied by `gain` (>= 1 per channel) and clipped to 1.
 /// Empty when the skin cannot carry it (uv_raster.hpp). Deterministic on any number of threads. About 0.5 s
 /// for 1024 texels on one core.
-LeafTexture leaf_texture(const Leaf& leaf, const Venation& venation, const SenescencePattern& pattern,
-                         const TissueColours& colours, const Eigen::VectorXd& dryness, const Vec3& gain,
-                         int size);
+Image leaf_texture(const Leaf& leaf, const Venation& venation, const SenescencePattern& pattern,
+                   const TissueColours& colours, const Eigen::VectorXd& dryness, const Vec3& gain, int size);
 
 }  // namespace wilt

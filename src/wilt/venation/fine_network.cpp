@@ -13,19 +13,10 @@ std::uint64_t lattice_hash(std::int64_t i, std::int64_t j, std::uint64_t seed) {
   return mix_hash(mix_hash(seed, static_cast<std::uint64_t>(i)), static_cast<std::uint64_t>(j));
 }
 
-// One size of cells: `frequency` of them in a leaf's length, walls `width` of a cell wide.
-struct Order {
-  double frequency, width, steepness;
-};
-
-// The height of the walls of one order, whose relief is added to the slope.
-double add_order(FineNetwork& network, const Order& order, const Vec2& p, double strength,
-                 std::uint64_t seed) {
-  const CellWall wall = cell_wall(p * order.frequency, seed);
-  if (wall.distance >= order.width) return 0.0;
-  const double x = wall.distance / order.width;
-  network.slope += (-strength * order.steepness * 4.0 * x * (1.0 - x * x)) * wall.gradient;
-  return strength * (1.0 - x * x) * (1.0 - x * x);
+// Walls `width` of a cell wide: 1 on a wall, 0 in a cell.
+double ridge(const CellWall& wall, double width) {
+  const double x = std::min(wall.distance / width, 1.0);
+  return (1.0 - x * x) * (1.0 - x * x);
 }
 
 }  // namespace
@@ -67,7 +58,6 @@ CellWall cell_wall(const Vec2& p, std::uint64_t seed) {
 }
 
 FineNetwork fine_network(const Vec2& p, std::uint64_t seed) {
-  constexpr Order kTertiary{22.0, 0.15, 0.20}, kQuaternary{60.0, 0.20, 0.16}, kAreole{150.0, 0.26, 0.10};
   // Bent at two sizes, so that the walls are no straight lines.
   const auto bent = [&p, seed](double frequency, double reach, std::uint64_t purpose) -> Vec2 {
     return reach * Vec2(value_noise(p * frequency, mix_hash(seed, purpose)).value,
@@ -76,9 +66,11 @@ FineNetwork fine_network(const Vec2& p, std::uint64_t seed) {
   const Vec2 coarse = p + bent(31.0, 0.006, 11), fine = coarse + bent(110.0, 0.0012, 21);
   const double fade = std::clamp(1.2 + value_noise(p * 80.0, mix_hash(seed, 31)).value, 0.3, 1.0);
   FineNetwork network;
-  network.tertiary = add_order(network, kTertiary, coarse, 1.0, mix_hash(seed, 3));
-  network.quaternary = add_order(network, kQuaternary, fine, fade, mix_hash(seed, 4));
-  network.areole = add_order(network, kAreole, fine, fade * fade, mix_hash(seed, 5));
+  const CellWall tertiary = cell_wall(coarse * 22.0, mix_hash(seed, 3));
+  network.tertiary = ridge(tertiary, 0.15);
+  network.within = tertiary.distance;
+  network.quaternary = fade * ridge(cell_wall(fine * 60.0, mix_hash(seed, 4)), 0.20);
+  network.areole = fade * fade * ridge(cell_wall(fine * 150.0, mix_hash(seed, 5)), 0.26);
   return network;
 }
 

@@ -24,7 +24,7 @@ CellWall cell_wall(const Vec2& p, std::uint64_t seed);
 /// The network at a point. Heights are 1 on a vein's axis and 0 in the tissue.
 struct FineNetwork {
   double tertiary = 0.0, quaternary = 0.0, areole = 0.0;
-  Vec2 slope = Vec2::Zero();  ///< gradient of the relief, rise per run, about 0.3 at most
+  double within = 0.0;  ///< distance to the nearest tertiary vein, in sizes of a tertiary cell
 };
 
 /// The network at `p`, x and y of the blade at rest in units of the leaf's length. Cells of about 1/22, 1/60
