@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kRefinedFaces = 60000;  // refine while the result has no more
 constexpr int kMaxLevels = 2;
-constexpr double kRimRadius = 0.0016;  // in leaf lengths
-constexpr double kRimShade = 0.72;     // of the blade's colour
+constexpr double kRimRadius = 0.0009;  // in leaf lengths
+constexpr double kRimShade = 0.85;     // of the blade's colour
 constexpr int kRimSides = 5;
 constexpr int kBlendedFrames = 2;  // on either side
 
