@@ -162,6 +162,7 @@ Physiology read_physiology(Section section) {
   physiology.force_range = section.number("force_range", 0.01, 100.0);
   physiology.dryness_scale = section.number("dryness_scale", 0.01, 1.0);
   physiology.shrinkage = section.number("shrinkage", 0.0, 10.0);
+  physiology.roll = section.number("roll", -200.0, 200.0);
   section.expect_all_used();
   return physiology;
 }

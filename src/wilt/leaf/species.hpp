@@ -30,6 +30,7 @@ struct Physiology {
   double force_range = 1.0;        ///< K_r, per working length unit
   double dryness_scale = 0.3;      ///< d: dryness = (w_0 - w) / (d w_0); a calibration
   double shrinkage = 1.0;          ///< s of the differential strain
+  double roll = 60.0;              ///< curvature of the dry margin, 1 / leaf length; > 0 rolls up
 };
 
 /// What the blade's tissue holds, fresh and dead (leaf_optics.hpp has the units), and how it gets there

@@ -153,6 +153,7 @@ Config default_config(const Species& species) {
   config.water.dryness_scale = p.dryness_scale;
   config.external.range = p.force_range;
   config.shrinkage.amount = p.shrinkage;
+  config.curvature.roll = p.roll;
   return config;
 }
 
