@@ -200,7 +200,7 @@ Figure figure_10(Workshop& workshop) {
     std::vector<double> last;
     for (const Experiment* run : runs) {
       const std::vector<double> curve = force_curve(*run, Region::mesophyll, &ForceRow::swelling);
-      panel.series.push_back({"w_{loss} " + rate_text(*run), counted(curve.size()), curve});
+      panel.series.push_back({"w_{loss} = " + rate_text(*run), counted(curve.size()), curve});
       if (run == runs.front()) {
         at_zero = *std::max_element(curve.begin(), curve.end());
       } else {

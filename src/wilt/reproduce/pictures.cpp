@@ -83,7 +83,6 @@ PictureOptions drawing_options(const PictureSettings& settings, const Points3& p
   options.samples = settings.samples;
   options.seed = settings.seed;
   options.ground = false;
-  options.background = Vec3::Ones();
   options.bounces = 1;
   options.lighting.sun.irradiance.setZero();
   options.lighting.sky = {Vec3::Constant(kToneWhite), Vec3::Constant(kToneWhite), Vec3::Constant(kToneWhite)};

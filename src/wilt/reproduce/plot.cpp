@@ -31,12 +31,11 @@ set ylabel textcolor '#404040'
 )";
 
 constexpr const char* kAxes = R"(set border 3 linecolor '#707070' linewidth 1
-set tics nomirror out scale 0.6 textcolor '#404040'
-set xtics
-set ytics
+set xtics nomirror out scale 0.6 textcolor '#404040'
+set ytics nomirror out scale 0.6 textcolor '#404040'
 set grid ytics linecolor '#e4e4e4' linewidth 1
 set size noratio
-set lmargin 10
+set lmargin 12
 )";
 
 constexpr const char* kNoAxes = R"(unset border
@@ -58,6 +57,7 @@ struct Range {
     most = std::max(most, value);
   }
   double width() const { return most - least; }
+  double middle() const { return 0.5 * (least + most); }
 };
 
 Range range_of(const Panel& panel, std::vector<double> Series::*values) {
@@ -115,7 +115,19 @@ std::string style_of(const Series& series, std::size_t place) {
   return "linespoints pointtype 7 pointsize 0.5 " + line;
 }
 
-std::string labels_of(const Panel& panel, const Range& y) {
+// Beside a point, away from the middle of a drawing; above it in a diagram.
+std::string point_label(const Panel& panel, const Series& series, std::size_t k, const Range& x,
+                        const Range& y, const std::string& colour) {
+  double right = 0.0, up = 0.75;
+  if (panel.equal_axes) {
+    right = 3.2 * (series.x[k] - x.middle()) / x.width();
+    up = 1.6 * (series.y[k] - y.middle()) / y.width();
+  }
+  return fmt::format("set label {} at {:.9g}, {:.9g} center offset {:.2f}, {:.2f} textcolor rgb '{}'\n",
+                     quoted(series.point_labels[k]), series.x[k], series.y[k], right, up, colour);
+}
+
+std::string labels_of(const Panel& panel, const Range& x, const Range& y) {
   std::string text = "unset label\n";
   const std::vector<double> heights = label_heights(panel, y);
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
@@ -124,9 +136,7 @@ std::string labels_of(const Panel& panel, const Range& y) {
     if (!s.name.empty() && !panel.equal_axes)
       text += fmt::format("set label {} at {:.9g}, {:.9g} left offset 0.6, 0 textcolor rgb '{}'\n",
                           quoted(s.name), s.x.back(), heights[i], colour);
-    for (std::size_t k = 0; k < s.point_labels.size(); ++k)
-      text += fmt::format("set label {} at {:.9g}, {:.9g} center offset 0, 0.75 textcolor rgb '{}'\n",
-                          quoted(s.point_labels[k]), s.x[k], s.y[k], colour);
+    for (std::size_t k = 0; k < s.point_labels.size(); ++k) text += point_label(panel, s, k, x, y, colour);
   }
   return text;
 }
@@ -134,7 +144,10 @@ std::string labels_of(const Panel& panel, const Range& y) {
 // How many letters of room the curves' names need on the right.
 std::size_t name_length(const Panel& panel) {
   std::size_t longest = 0;
-  for (const Series& s : panel.series) longest = std::max(longest, s.name.size());
+  for (const Series& s : panel.series) {
+    const auto shown = [](char c) { return c != '{' && c != '}' && c != '_'; };
+    longest = std::max(longest, static_cast<std::size_t>(std::count_if(s.name.begin(), s.name.end(), shown)));
+  }
   return longest;
 }
 
@@ -192,7 +205,7 @@ std::string plot_script(const Plot& plot) {
   text += fmt::format("set multiplot layout {},{}\n", rows, plot.columns);
   for (std::size_t p = 0; p < plot.panels.size(); ++p) {
     const Range x = range_of(plot.panels[p], &Series::x), y = range_of(plot.panels[p], &Series::y);
-    text += axes_of(plot.panels[p], x, y) + labels_of(plot.panels[p], y) + curves_of(plot, p);
+    text += axes_of(plot.panels[p], x, y) + labels_of(plot.panels[p], x, y) + curves_of(plot, p);
   }
   return text + "unset multiplot\n";
 }

@@ -209,9 +209,8 @@ std::string report_html(const std::vector<Figure>& figures, const ReportFacts& f
       "<p><em>paper</em> keeps the printed equations where they run; <em>cell</em> is wilt's own model: the "
       "same "
       "forces, made independent of the mesh and conservative, with bending, differential shrinkage, stiff "
-      "veins, "
-      "gravity. Every verdict is computed: a measured number against a criterion that was fixed "
-      "beforehand.</p>\n";
+      "veins, gravity. Every verdict is computed: a measured number against a stated criterion. L is the "
+      "length of the leaf.</p>\n";
   for (const std::string& note : facts.notes)
     text += fmt::format("<p><strong>{}</strong></p>\n", html_escape(note));
   text += "<nav>";

@@ -28,10 +28,11 @@ th, td { text-align: left; vertical-align: top; padding: .35rem .9rem .35rem 0; 
 th { font-weight: 600; color: var(--soft); }
 .scroll { overflow-x: auto; }
 .claims { width: 100%; }
-.claims td:first-child { white-space: nowrap; }
+.claims td:first-child, .claims td:nth-child(n+4) { white-space: nowrap; }
 .verdict { white-space: nowrap; font-weight: 600; }
 .yes { color: var(--yes); } .no { color: var(--no); } .none { color: var(--soft); }
 figure { margin: 1.4rem 0; }
+figcaption { margin-top: .5rem; max-width: 60rem; }
 .grid { display: grid; gap: .6rem; min-width: 44rem; align-items: end; }
 .grid .label { align-self: center; font-size: .9rem; color: var(--soft); }
 .grid .head { font-size: .9rem; color: var(--soft); text-align: center; }

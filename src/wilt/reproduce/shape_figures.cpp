@@ -154,12 +154,12 @@ Figure figure_7(Workshop& workshop) {
                 {},
                 {}};
   for (const char* model : kModels) {
-    PictureGrid grid{
-        fmt::format("Model {}, after 100 iterations; each species under one camera. w: wrinkle in "
-                    "thousandths of the length; c: curl.",
-                    model),
-        species_names(),
-        {}};
+    PictureGrid grid{fmt::format("Model {}, after 100 iterations; each species under one camera. All lose "
+                                 "water, hence the colours. w: wrinkle in "
+                                 "thousandths of the length; c: curl.",
+                                 model),
+                     species_names(),
+                     {}};
     for (const Forces& row : rows_of_figure_7()) grid.rows.push_back({row.name, {}});
     std::vector<std::vector<FinalMetrics>> metrics;
     for (const std::string& name : species_names()) {
