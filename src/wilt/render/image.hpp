@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 namespace wilt {
@@ -23,6 +24,9 @@ struct Image {
 /// Throws Error{configuration} for wrong numbers, Error{input} when there is no picture.
 Image contact_sheet(const std::vector<Image>& images, int columns, int gap = 0,
                     std::array<std::uint8_t, 3> background = {237, 234, 229});
+
+/// The picture in the bytes of a PNG or JPEG file, its transparency dropped. Throws Error{input}.
+Image decode_image(std::string_view bytes);
 
 /// The bytes of a PNG file, 8 bits RGB, lossless. Throws Error{input} for an empty picture.
 std::vector<std::uint8_t> encode_png(const Image& image);

@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+#include <memory>
+
 #include "wilt/core/error.hpp"
 #include "wilt/output/file.hpp"
 #include "wilt/render/image.hpp"
@@ -11,9 +15,29 @@
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #pragma GCC diagnostic ignored "-Wunused-function"
 #include <stb/stb_image_write.h>
+#define STBI_NO_STDIO
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#include <stb/stb_image.h>
 #pragma GCC diagnostic pop
 
 namespace wilt {
+
+Image decode_image(std::string_view bytes) {
+  int width = 0, height = 0, channels = 0;
+  const auto size = static_cast<int>(std::min<std::size_t>(bytes.size(), std::numeric_limits<int>::max()));
+  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+      stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), size, &width, &height, &channels,
+                            3),
+      stbi_image_free);
+  if (!pixels)
+    throw Error(ErrorCode::input, fmt::format("the picture cannot be decoded ({}); it must be PNG or JPEG",
+                                              stbi_failure_reason()));
+  const std::size_t count = 3 * std::size_t(width) * std::size_t(height);
+  return {width, height, {pixels.get(), pixels.get() + count}};
+}
 
 std::vector<std::uint8_t> encode_png(const Image& image) {
   if (image.width < 1 || image.height < 1 ||

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
 
 #include "wilt/mesh/geometry.hpp"
@@ -16,8 +17,8 @@
 namespace wilt {
 namespace {
 
-constexpr Finish kMatt{0.0, 0.0, 0.5, 0.0};
-constexpr double kDrawnVein = 0.007;  // radius of a vein that is drawn over the leaf, in lengths
+constexpr Finish kMatt{0.0, 0.0, 0.5, 0.0};  // no translucency, no gloss, no relief
+constexpr double kDrawnVein = 0.007;         // radius of a vein that is drawn over the leaf, in lengths
 constexpr double kFromAbove = std::numbers::pi / 2.0;
 
 GlbFile glb_of(const Experiment& experiment) {
@@ -28,15 +29,29 @@ GlbFile glb_of(const Experiment& experiment) {
 }
 
 std::vector<Scene> scenes_of(const std::vector<Shot>& shots) {
-  std::map<const Experiment*, GlbFile> files;
+  struct Table {
+    GlbFile file;
+    LeafScene scene;
+    explicit Table(const Experiment& experiment) : file(glb_of(experiment)), scene(file) {}
+  };
+  std::map<const Experiment*, std::unique_ptr<Table>> tables;
   std::vector<Scene> scenes;
   for (const Shot& shot : shots) {
-    const auto [file, is_new] = files.try_emplace(shot.experiment);
-    if (is_new) file->second = glb_of(*shot.experiment);
-    const int last = static_cast<int>(file->second.times.size()) - 1;
-    scenes.push_back(leaf_scene(file->second, std::min(shot.frame, last)));
+    auto& table = tables[shot.experiment];
+    if (!table) table = std::make_unique<Table>(*shot.experiment);
+    scenes.push_back(table->scene.at(std::min(shot.frame, table->scene.frames() - 1)));
   }
   return scenes;
+}
+
+// The points of a vein on the blade of a scene, whose first vertices are the file's.
+Points3 on_blade(const GlbFile& file, const GlbVein& vein, const Surface& blade) {
+  Points3 line = Points3::Zero(static_cast<int>(vein.faces.size()), 3);
+  for (int i = 0; i < line.rows(); ++i) {
+    const auto corners = file.meshes.front().faces.row(vein.faces[static_cast<std::size_t>(i)]);
+    for (int k = 0; k < 3; ++k) line.row(i) += vein.barycentric(i, k) * blade.positions.row(corners[k]);
+  }
+  return line;
 }
 
 Points3 stacked(const std::vector<Points3>& parts) {
@@ -75,21 +90,29 @@ Surface drawn_vein(const Points3& line, double radius) {
   return surface;
 }
 
-// A flat drawing in colours as they are given: an even sky, no sun, no ground.
-PictureOptions drawing_options(const PictureSettings& settings, const Points3& points) {
+double aspect_of(const PictureOptions& options) {
+  return static_cast<double>(options.width) / options.height;
+}
+
+PictureOptions options_of(const PictureSettings& settings, double scale) {
   PictureOptions options;
-  options.width = settings.width;
-  options.height = settings.height;
+  options.width = std::max(16, static_cast<int>(scale * settings.width));
+  options.height = std::max(12, static_cast<int>(scale * settings.height));
   options.samples = settings.samples;
   options.seed = settings.seed;
+  return options;
+}
+
+// A flat drawing in colours as they are given: an even sky, no sun, no ground.
+PictureOptions drawing_options(const PictureSettings& settings, const Points3& points) {
+  PictureOptions options = options_of(settings, 1.0);
   options.ground = false;
   options.bounces = 1;
   options.lighting.sun.irradiance.setZero();
   options.lighting.sky = {Vec3::Constant(kToneWhite), Vec3::Constant(kToneWhite), Vec3::Constant(kToneWhite)};
   options.view.azimuth = -kFromAbove;
   options.view.elevation = kFromAbove;
-  const double aspect = static_cast<double>(settings.width) / settings.height;
-  options.camera = frame_camera(points, aspect, options.view);
+  options.camera = frame_camera(points, aspect_of(options), options.view);
   return options;
 }
 
@@ -112,12 +135,8 @@ Vec3 viridis(double t) {
 
 std::vector<Image> Pictures::render_all(const std::vector<Scene>& scenes, const Points3& seen,
                                         double scale) const {
-  PictureOptions options;
-  options.width = std::max(16, static_cast<int>(scale * settings_.width));
-  options.height = std::max(12, static_cast<int>(scale * settings_.height));
-  options.samples = settings_.samples;
-  options.seed = settings_.seed;
-  options.camera = frame_camera(seen, static_cast<double>(options.width) / options.height, options.view);
+  PictureOptions options = options_of(settings_, scale);
+  options.camera = frame_camera(seen, aspect_of(options), options.view);
   std::vector<Image> images;
   for (const Scene& scene : scenes) images.push_back(render(scene, options, cancel_));
   return images;
@@ -146,22 +165,17 @@ std::vector<Image> Pictures::close_ups(const std::vector<Shot>& shots,
 }
 
 Image Pictures::veins(const Experiment& experiment) const {
-  Scene scene = scenes_of({{&experiment, 0}}).front();
-  PictureOptions options;
-  options.width = settings_.width;
-  options.height = settings_.height;
-  options.samples = settings_.samples;
-  options.seed = settings_.seed;
+  const GlbFile file = glb_of(experiment);
+  Scene scene = leaf_scene(file, 0);
+  PictureOptions options = options_of(settings_, 1.0);
   options.view.azimuth = -kFromAbove;
   options.view.elevation = kFromAbove;
-  const Points3 blade = scene.surfaces.front().positions;
-  options.camera = frame_camera(blade, static_cast<double>(options.width) / options.height, options.view);
+  const Surface blade = scene.surfaces.front();
+  options.camera = frame_camera(blade.positions, aspect_of(options), options.view);
   const double radius = kDrawnVein * leaf_length(experiment.subject.leaf);
-  std::vector<Surface> tubes;
-  for (const VeinLine& vein : scene.veins) {
-    if (vein.order == 1) tubes.push_back(drawn_vein(vein.positions, radius));
+  for (const GlbVein& vein : file.veins) {
+    if (vein.order == 1) scene.surfaces.push_back(drawn_vein(on_blade(file, vein, blade), radius));
   }
-  for (Surface& tube : tubes) scene.surfaces.push_back(std::move(tube));
   return render(scene, options, cancel_);
 }
 
