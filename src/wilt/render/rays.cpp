@@ -48,7 +48,7 @@ RTCRay embree_ray(const Ray& ray) {
 
 World::World(const Scene& scene)
     : scene_(scene),
-      device_(rtcNewDevice("threads=1"), rtcReleaseDevice),
+      device_(rtcNewDevice(nullptr), rtcReleaseDevice),
       surfaces_(nullptr, rtcReleaseScene) {
   WILT_CHECK(device_ != nullptr, rtcGetDeviceError(nullptr));
   const Points3 points = scene_points(scene_);
