@@ -90,6 +90,7 @@ int run(int argc, char** argv) {
   add_simulate(app, options);
   add_render(app, options);
   add_info(app, options);
+  add_reproduce(app, options);
   const auto fail = [&](const std::string& message, ErrorCode code) {
     Terminal(options).error(message);
     return static_cast<int>(code);
