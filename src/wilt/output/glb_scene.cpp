@@ -11,6 +11,8 @@
 namespace wilt {
 namespace {
 
+constexpr double kStalkDries = 0.7;  // share of dead tissue's colour in the stalk of a dry leaf
+constexpr double kStalkShade = 0.6;  // and that darker than the blade's
 constexpr double kDarkest = 0.004;  // colours that are divided by are kept above it
 
 // What the texture is brighter than the last frame by, so that no earlier frame asks for a vertex colour
@@ -32,10 +34,14 @@ GlbScene glb_scene(const Leaf& leaf, const Venation& venation, const Config& con
   GlbScene scene{leaf, frames};
   scene.venation = &venation;
   scene.config = to_json(config);
-  scene.stalk_colours.push_back(linear_rgb(pigments.stalk));
   const TissueColours tissue(pigments);
   const SenescencePattern pattern = senescence_pattern(leaf, venation, pigments);
-  for (const Frame& frame : frames) scene.colours.push_back(leaf_colours(pattern, tissue, frame.dryness));
+  const Vec3 dead = tissue({1.0, 0.0, 0.0});
+  for (const Frame& frame : frames) {
+    scene.colours.push_back(leaf_colours(pattern, tissue, frame.dryness));
+    const double dry = kStalkDries * frame.dryness.mean();
+    scene.stalk_colours.push_back((1.0 - dry) * linear_rgb(pigments.stalk) + dry * kStalkShade * dead);
+  }
   const Vec3 gain = texture_gain(scene.colours);
   const auto size = static_cast<int>(config.texture.size);
   const Eigen::VectorXd& dryness = frames.back().dryness;
