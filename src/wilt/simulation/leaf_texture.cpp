@@ -8,6 +8,7 @@
 #include "wilt/core/hash.hpp"
 #include "wilt/core/parallel.hpp"
 #include "wilt/core/srgb.hpp"
+#include "wilt/mesh/geometry.hpp"
 #include "wilt/simulation/uv_raster.hpp"
 #include "wilt/venation/fine_network.hpp"
 
@@ -16,8 +17,9 @@ namespace {
 
 constexpr int kBand = 16;  // rows that are painted by one thread
 
-// Half widths of veins where they begin, in units of the leaf's length; they taper to a share of it.
-constexpr double kPrimaryRadius = 0.0062, kSecondaryRadius = 0.0034, kTaper = 0.3;
+// Half widths of veins where they begin, in units of the square root of the blade's
+// area; they taper to a share of it.
+constexpr double kPrimaryRadius = 0.0082, kSecondaryRadius = 0.0045, kTaper = 0.3;
 
 // A piece of a vein in the texture plane.
 struct Stroke {
@@ -47,8 +49,9 @@ Vec2 uv_at(const Skin& skin, const SurfacePoint& point) {
   return uv;
 }
 
-void add_strokes(const Leaf& leaf, const Vein& vein, double texel, std::vector<Stroke>& strokes) {
-  const double base = leaf_length(leaf) * (vein.order == 1 ? kPrimaryRadius : kSecondaryRadius);
+void add_strokes(const Leaf& leaf, const Vein& vein, double size, double texel,
+                 std::vector<Stroke>& strokes) {
+  const double base = size * (vein.order == 1 ? kPrimaryRadius : kSecondaryRadius);
   const double strength = vein.order == 1 ? 1.0 : 0.8;
   const auto& points = vein.path.points;
   double gone = 0.0;
@@ -97,7 +100,8 @@ class Painter {
         colours_(colours),
         length_(leaf_length(leaf)),
         seed_(mix_hash(leaf.seed, 77)) {
-    for (const Vein& vein : venation.veins) add_strokes(leaf, vein, 0.7 / raster.size, strokes_);
+    const double size = std::sqrt(surface_area(leaf.mesh, leaf.positions));
+    for (const Vein& vein : venation.veins) add_strokes(leaf, vein, size, 0.7 / raster.size, strokes_);
   }
 
   void paint(int first, int last, std::vector<std::uint8_t>& rgb) const {
