@@ -11,13 +11,13 @@
 namespace wilt {
 namespace {
 
-struct Run {
+struct Case {
   Leaf leaf = make_leaf("grape", 500, 1);
   Config config = default_config(species("grape"));
   Venation venation = find_venation(leaf, species("grape").secondary);
   std::vector<Frame> frames;
 
-  Run() {
+  Case() {
     config.texture.size = 128;
     for (const int iteration : {0, 40, 100}) {
       Frame frame = rest_frames(leaf).front();
@@ -31,7 +31,7 @@ struct Run {
 // Oracle: the colours of the states. COLOR_0 over COLOR_0 of the last frame is C_k over C_last, wherever
 // nothing was clipped; the last COLOR_0 is one constant; a single-colour reader sees the last frame.
 TEST(GlbSceneOfARun, TextureTimesColourIsTheFramesColour) {
-  const Run run;
+  const Case run;
   const GlbScene scene = glb_scene(run.leaf, run.venation, run.config, run.frames);
   const Pigmentation& pigments = species("grape").pigments;
   const SenescencePattern pattern = senescence_pattern(run.leaf, run.venation, pigments);
@@ -57,7 +57,7 @@ TEST(GlbSceneOfARun, TextureTimesColourIsTheFramesColour) {
 // Oracle: the bytes that were written; they are a picture of the size that was asked for, and frames come
 // back from the file as given.
 TEST(GlbSceneOfARun, CarriesItsTextureThroughTheFile) {
-  const Run run;
+  const Case run;
   const GlbScene scene = glb_scene(run.leaf, run.venation, run.config, run.frames);
   const GlbFile file = parse_glb(glb_bytes(scene), "grape");
   EXPECT_EQ(file.texture, scene.texture);
@@ -69,7 +69,7 @@ TEST(GlbSceneOfARun, CarriesItsTextureThroughTheFile) {
 
 // Oracle: the colours of the states themselves.
 TEST(GlbSceneOfARun, HasColoursPerVertexWithoutATexture) {
-  Run run;
+  Case run;
   run.config.texture.size = 0;
   const GlbScene scene = glb_scene(run.leaf, run.venation, run.config, run.frames);
   EXPECT_TRUE(scene.texture.empty());

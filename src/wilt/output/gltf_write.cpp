@@ -75,9 +75,10 @@ class Builder {
   }
 };
 
-// A viewer adds the difference to the float32 base, so it is taken from that: no error adds up.
+// A viewer adds the difference to the float32 base, so it is taken from that: no error adds up, and the
+// base's own frame differs by nothing.
 Floats difference(const Points3& values, const Floats& base) {
-  return (values - base.cast<double>()).cast<float>();
+  return values.cast<float>() - base;
 }
 
 void add_mesh(Builder& builder, const Moving& moving, const std::vector<Frame>& frames, int material) {

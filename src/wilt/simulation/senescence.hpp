@@ -54,7 +54,7 @@ class TissueColours {
   Vec3 operator()(const TissueState& state) const;
 
  private:
-  static constexpr int kAges = 61, kReds = 9, kVeins = 9;
+  static constexpr int kAges = 121, kReds = 9, kVeins = 9;
   std::vector<Vec3> table_;
 };
 

@@ -5,11 +5,14 @@
 #include <array>
 #include <cmath>
 
+#include "wilt/mesh/geometry.hpp"
+
 namespace wilt {
 namespace {
 
-// Half widths of veins where they begin, in units of the leaf's length; they taper to a share of it.
-constexpr double kPrimaryRadius = 0.0062, kSecondaryRadius = 0.0034, kTaper = 0.3;
+// Half widths of veins where they begin, in units of the square root of the blade's area; they taper to a
+// share of it.
+constexpr double kPrimaryRadius = 0.0082, kSecondaryRadius = 0.0045, kTaper = 0.3;
 
 // Texture lengths per metre on a face at rest.
 double uv_scale(const Leaf& leaf, int face) {
@@ -35,11 +38,12 @@ Vec2 uv_at(const Skin& skin, const SurfacePoint& point) {
 }  // namespace
 
 VeinStrokes::VeinStrokes(const Leaf& leaf, const Venation& venation, int size) : size_(size) {
-  for (const Vein& vein : venation.veins) add(leaf, vein);
+  const double blade = std::sqrt(surface_area(leaf.mesh, leaf.positions));
+  for (const Vein& vein : venation.veins) add(leaf, vein, blade);
 }
 
-void VeinStrokes::add(const Leaf& leaf, const Vein& vein) {
-  const double base = leaf_length(leaf) * (vein.order == 1 ? kPrimaryRadius : kSecondaryRadius);
+void VeinStrokes::add(const Leaf& leaf, const Vein& vein, double blade) {
+  const double base = blade * (vein.order == 1 ? kPrimaryRadius : kSecondaryRadius);
   const double thinnest = 0.7 / size_;
   const double strength = vein.order == 1 ? 1.0 : 0.8;
   const auto& points = vein.path.points;

@@ -28,7 +28,7 @@ class VeinStrokes {
     double radius_a, radius_b;  // in the unit of uv
     double strength;
   };
-  void add(const Leaf& leaf, const Vein& vein);
+  void add(const Leaf& leaf, const Vein& vein, double blade);
 
   int size_;
   std::vector<Stroke> strokes_;
