@@ -24,6 +24,7 @@ constexpr const char* kIntroduction =
     "  wilt demo                                  a withered maple leaf and its picture, in seconds\n"
     "  wilt simulate maple -o maple.glb           a leaf that plays in Blender\n"
     "  wilt simulate drawing.svg -o mine.glb      the same for your own drawing (or mesh)\n"
+    "  wilt render maple.glb -o maple.mp4         a picture, a contact sheet or a film of it\n"
     "  wilt veins ivy -o veins.svg                only the veins\n"
     "  wilt COMMAND --help                        what a command takes\n";
 
@@ -87,7 +88,9 @@ int run(int argc, char** argv) {
   add_leaf(app, options);
   add_veins(app, options);
   add_simulate(app, options);
+  add_render(app, options);
   add_info(app, options);
+  add_reproduce(app, options);
   const auto fail = [&](const std::string& message, ErrorCode code) {
     Terminal(options).error(message);
     return static_cast<int>(code);

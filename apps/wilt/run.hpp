@@ -7,8 +7,9 @@
 
 #include "load_leaf.hpp"
 #include "terminal.hpp"
+#include "wilt/core/image.hpp"
+#include "wilt/output/gltf.hpp"
 #include "wilt/output/report.hpp"
-#include "wilt/render/image.hpp"
 #include "wilt/simulation/config.hpp"
 #include "wilt/simulation/result.hpp"
 
@@ -38,8 +39,11 @@ void write_result(const std::string& path, const WitheredLeaf& withered, Termina
 /// The text of report.json.
 std::string report_of(const WitheredLeaf& withered);
 
-/// A picture of the leaf at a frame, lying on a table.
-Image picture_of(const WitheredLeaf& withered, const Frame& frame, int width, int height, Terminal& terminal);
+/// The result as `wilt render` would read it from its .glb.
+GlbFile result_file(const WitheredLeaf& withered);
+
+/// A picture of a frame, lying on a table.
+Image picture_of(const GlbFile& file, int frame, int width, int height, Terminal& terminal);
 
 /// Throws Error{output} unless the folder of `path` exists.
 void check_writable(const std::string& path);

@@ -10,6 +10,8 @@
 #include "wilt/core/error.hpp"
 #include "wilt/leaf/species.hpp"
 #include "wilt/output/file.hpp"
+#include "wilt/output/image_codec.hpp"
+#include "wilt/render/contact_sheet.hpp"
 
 namespace wilt::cli {
 namespace {
@@ -25,12 +27,11 @@ void make_folder(const std::filesystem::path& folder) {
 }
 
 // Four stages from fresh to dry.
-Image stages(const WitheredLeaf& withered, Terminal& terminal) {
-  const auto& frames = withered.result.frames;
+Image stages(const GlbFile& file, Terminal& terminal) {
+  const int last = static_cast<int>(file.times.size()) - 1;
   std::vector<Image> images;
   for (int k = 0; k < 4; ++k)
-    images.push_back(
-        picture_of(withered, frames[(frames.size() - 1) * k / 3], kSheetWidth, kSheetHeight, terminal));
+    images.push_back(picture_of(file, last * k / 3, kSheetWidth, kSheetHeight, terminal));
   return contact_sheet(images, 4);
 }
 
@@ -51,9 +52,10 @@ void run(const std::string& folder_name, const GlobalOptions& options) {
                     sheet = (folder / "stages.png").string(), report = (folder / "report.json").string();
   write_result(glb, withered, terminal);
   write_file(report, report_of(withered));
-  write_png(picture,
-            picture_of(withered, withered.result.frames.back(), kPictureWidth, kPictureHeight, terminal));
-  write_png(sheet, stages(withered, terminal));
+  const GlbFile file = result_file(withered);
+  const int last = static_cast<int>(file.times.size()) - 1;
+  write_image(picture, picture_of(file, last, kPictureWidth, kPictureHeight, terminal));
+  write_image(sheet, stages(file, terminal));
   fmt::print(
       "A maple leaf has withered.\n"
       "  {:<34} plays in Blender (File > Import > glTF) and three.js\n"

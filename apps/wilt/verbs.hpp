@@ -13,6 +13,8 @@ namespace wilt::cli {
 void add_demo(CLI::App& app, const GlobalOptions& options);
 void add_info(CLI::App& app, const GlobalOptions& options);
 void add_leaf(CLI::App& app, const GlobalOptions& options);
+void add_render(CLI::App& app, const GlobalOptions& options);
+void add_reproduce(CLI::App& app, const GlobalOptions& options);
 void add_simulate(CLI::App& app, const GlobalOptions& options);
 void add_species(CLI::App& app, const GlobalOptions& options);
 void add_veins(CLI::App& app, const GlobalOptions& options);

@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <thread>
+
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -44,6 +48,18 @@ TEST(ParallelFor, HandsTheBodysExceptionToTheCaller) {
                               if (begin == 500) throw std::runtime_error("stop");
                             }),
                std::runtime_error);
+}
+
+// Negative control of every test that compares thread counts: a limit of one keeps the loop on its caller.
+TEST(ThreadLimit, OfOneKeepsTheLoopOnTheCallingThread) {
+  const ThreadLimit limit(1);
+  std::atomic<int> elsewhere = 0;
+  const auto here = std::this_thread::get_id();
+  parallel_for(64, 1, [&](int, int) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // long enough for others to come
+    if (std::this_thread::get_id() != here) ++elsewhere;
+  });
+  EXPECT_EQ(elsewhere, 0);
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 
 namespace wilt::test {
 
-/// No coat, no fine detail: what a formula can say.
+/// No coat: what a formula can say.
 inline Finish matt(double translucency = 0.0) {
-  return {translucency, 0.0, 0.4, 0.0};
+  return {translucency, 0.0, 0.4};
 }
 
 inline wilt::Surface drawn(Points3 positions, Faces faces, const Vec3& colour, bool leaf) {

@@ -19,7 +19,7 @@ TEST(Light, AWhiteSphereInAUniformSkyIsTheSky) {
   PictureOptions options = dark_studio();
   const Vec3 sky(0.7, 0.5, 0.3);
   options.lighting.sky = test::uniform_sky(sky);
-  const Radiance picture = render_radiance({{test::sphere(24, Vec3::Ones())}, {}}, options);
+  const Radiance picture = render_radiance({{test::sphere(24, Vec3::Ones())}}, options);
   for (int y = 5; y < 11; ++y)
     for (int x = 5; x < 11; ++x) EXPECT_NEAR((at(picture, x, y) - sky).norm(), 0.0, 1e-9) << x << " " << y;
 }
@@ -29,7 +29,7 @@ TEST(Light, ALeafThatAbsorbsNothingIsTheSkyEvenWhenItIsABowl) {
     PictureOptions options = dark_studio();
     options.bounces = 4;
     options.lighting.sky = test::uniform_sky(Vec3::Constant(0.8));
-    Scene scene{{test::paraboloid(12, height, Vec3::Constant(0.5), true)}, {}};
+    Scene scene{{test::paraboloid(12, height, Vec3::Constant(0.5), true)}};
     scene.surfaces[0].finish = test::matt(1.0);
     const Radiance picture = render_radiance(scene, options);
     for (int y = 2; y < 14; ++y)
@@ -45,8 +45,8 @@ TEST(Light, TheCoatMakesNoLight) {
     options.samples = 256;
     options.lighting.sky = test::uniform_sky(Vec3::Ones());
     options.camera = frame_camera(Points3::Random(8, 3) * 0.2, 1.0, {0.3, 0.5});
-    Scene scene{{test::square(1.0, 0.0, Vec3::Ones(), false)}, {}};
-    scene.surfaces[0].finish = {0.0, 1.0, roughness, 0.0};
+    Scene scene{{test::square(1.0, 0.0, Vec3::Ones(), false)}};
+    scene.surfaces[0].finish = {0.0, 1.0, roughness};
     const double mean = render_radiance(scene, options).rgb.mean();
     EXPECT_LT(mean, 1.0 + 0.005) << roughness;  // noise of 64 x 256 samples is about 0.002
     EXPECT_GT(mean, 0.94) << roughness;
@@ -60,7 +60,7 @@ TEST(Light, ASunlitPlaneFollowsTheCosineLaw) {
     PictureOptions options = dark_studio();
     options.lighting.sun = {{std::cos(elevation), 0.0, std::sin(elevation)}, 0.02, irradiance};
     const Vec3 expected = rho.cwiseProduct(irradiance) * std::sin(elevation) / kPi;
-    const Vec3 seen = centre(render_radiance({{test::square(1.0, 0.0, rho, false)}, {}}, options));
+    const Vec3 seen = centre(render_radiance({{test::square(1.0, 0.0, rho, false)}}, options));
     EXPECT_NEAR((seen - expected).norm(), 0.0, 1e-9) << elevation;
   }
 }
@@ -70,9 +70,9 @@ TEST(Light, ALeafGlowsWhenTheSunIsBehindIt) {
   const Vec3 colour(0.3, 0.2, 0.1);
   PictureOptions options = dark_studio();
   options.lighting.sun = {{0.0, 0.6, -0.8}, 0.02, Vec3::Constant(2.0)};
-  Scene scene{{test::square(1.0, 0.0, colour, true)}, {}};
+  Scene scene{{test::square(1.0, 0.0, colour, true)}};
   scene.surfaces[0].finish = test::matt(0.5);
-  const Vec3 tau = leaf_optics(colour, 0.5).transmittance;
+  const Vec3 tau = sheet_optics(colour, 0.5).transmittance;
   EXPECT_NEAR((centre(render_radiance(scene, options)) - tau * 2.0 * 0.8 / kPi).norm(), 0.0, 1e-9);
   scene.surfaces[0].leaf = false;
   EXPECT_EQ(centre(render_radiance(scene, options)).norm(), 0.0);
@@ -80,11 +80,11 @@ TEST(Light, ALeafGlowsWhenTheSunIsBehindIt) {
 
 // Analytic: from below, in light from below, the underside's reflectance.
 TEST(Light, TheUndersideIsPalerAndSeenFromBelow) {
-  const Vec3 colour(0.3, 0.2, 0.05), under = leaf_optics(colour, 0.0).under;
+  const Vec3 colour(0.3, 0.2, 0.05), under = sheet_optics(colour, 0.0).under;
   PictureOptions options = dark_studio();
   options.camera = Camera{{0.0, 0.0, -20.0}, Vec3::UnitZ(), Vec3::UnitY(), 0.1};
   options.lighting.sun = {-Vec3::UnitZ(), 0.0, Vec3::Constant(kPi)};
-  const Vec3 seen = centre(render_radiance({{test::square(1.0, 0.0, colour, true)}, {}}, options));
+  const Vec3 seen = centre(render_radiance({{test::square(1.0, 0.0, colour, true)}}, options));
   EXPECT_NEAR((seen - under).norm(), 0.0, 1e-9);
   EXPECT_GT(under.minCoeff() / under.maxCoeff(), colour.minCoeff() / colour.maxCoeff() + 0.1);
 }
@@ -96,8 +96,7 @@ TEST(Light, APlaneUnderTheSkyReflectsTheSkysCosineMean) {
   options.lighting.sky = {{1.0, 0.2, 0.6}, {0.1, 0.8, 0.6}, Vec3::Zero()};
   const Vec3 expected = 0.5 * Vec3(0.7, 0.4, 0.6);
   EXPECT_NEAR((0.5 * options.lighting.sky.mean_above() - expected).norm(), 0.0, 1e-15);
-  const Radiance picture =
-      render_radiance({{test::square(2.0, 0.0, Vec3::Constant(0.5), false)}, {}}, options);
+  const Radiance picture = render_radiance({{test::square(2.0, 0.0, Vec3::Constant(0.5), false)}}, options);
   // Standard deviation of one sample is 0.15; of 64 x 1024 it is 0.0006.
   EXPECT_NEAR((picture.rgb.colwise().mean().transpose() - expected).norm(), 0.0, 0.002);
 }
@@ -108,7 +107,7 @@ TEST(Light, ShadowsAreWhereTheyMustBe) {
   options.samples = 256;
   options.lighting.sun = {{1.0, 0.0, 1.0}, 0.05, Vec3::Constant(kPi * std::sqrt(2.0))};
   Scene scene{
-      {test::square(1.0, 0.0, Vec3::Constant(0.5), false), test::square(3.0, 2.0, Vec3::Ones(), false)}, {}};
+      {test::square(1.0, 0.0, Vec3::Constant(0.5), false), test::square(3.0, 2.0, Vec3::Ones(), false)}};
   // The plate spans x in [2, 8] at height 2 after this shift: its shadow covers x in [0, 6].
   scene.surfaces[1].positions.col(0).array() += 5.0;
   const Radiance picture = render_radiance(scene, options);
@@ -124,7 +123,7 @@ TEST(Light, TheOpenGroundIsTheBackgroundAndTheShadowIsDarker) {
   PictureOptions options;
   options.width = 64, options.height = 48, options.samples = 4;
   options.view.margin = 0.3;
-  const Scene scene{{test::square(0.05, 0.01, Vec3(0.1, 0.3, 0.05), true)}, {}};
+  const Scene scene{{test::square(0.05, 0.01, Vec3(0.1, 0.3, 0.05), true)}};
   options.ground_height = 0.0;
   const Image picture = render(scene, options);
   for (int x = 0; x < 64; ++x)  // the top row: a sample in a hundred meets the leaf
@@ -138,15 +137,60 @@ TEST(Light, TheOpenGroundIsTheBackgroundAndTheShadowIsDarker) {
   EXPECT_GT(dark, 20);
 }
 
-TEST(LeafOptics, GreyStaysGreyAndNothingIsGained) {
-  const LeafOptics grey = leaf_optics(Vec3::Constant(0.5), 1.0);
+// A picture of one colour.
+Image plain_map(std::uint8_t r, std::uint8_t g, std::uint8_t b) {
+  Image map{4, 4, {}};
+  for (int i = 0; i < 16; ++i) map.rgb.insert(map.rgb.end(), {r, g, b});
+  return map;
+}
+
+// Analytic: a tilted normal follows the cosine law about the tilted direction; x of the map runs along u, y
+// against v, wherever the texture coordinates turn them.
+TEST(Light, ANormalMapTiltsTheSurface) {
+  PictureOptions options = dark_studio();
+  options.lighting.sun = {{0.6, 0.0, 0.8}, 0.0, Vec3::Constant(kPi)};
+  options.bounces = 1;  // light from the surface to itself is not asked for
+  for (const double turn : {0.0, 0.5, 2.0, -1.2}) {
+    Scene scene{{test::square(1.0, 0.0, Vec3::Constant(0.5), true)}};
+    Surface& leaf = scene.surfaces[0];
+    Eigen::Matrix2d rotation;
+    rotation << std::cos(turn), std::sin(turn), -std::sin(turn), std::cos(turn);
+    leaf.uv = 0.25 * leaf.positions.leftCols(2) * rotation.transpose();  // (u, v) = R (x, y) / 4
+    leaf.normal_map = plain_map(204, 153, 230);
+    const Vec3 value(204 / 127.5 - 1.0, 153 / 127.5 - 1.0, 230 / 127.5 - 1.0);
+    const Vec2 u_axis = rotation.row(0).transpose(), v_axis = rotation.row(1).transpose();
+    Vec3 normal;
+    normal << value.x() * u_axis - value.y() * v_axis, value.z();
+    const double expected = 0.5 * normal.normalized().dot(options.lighting.sun.direction);
+    EXPECT_NEAR(centre(render_radiance(scene, options)).x(), expected, 1e-6) << turn;  // the map is in floats
+  }
+}
+
+// Analytic: a colour map multiplies the colours, each half in its own.
+TEST(Light, AColourMapMultipliesTheColours) {
+  PictureOptions options = dark_studio(32);
+  options.lighting.sun = {Vec3::UnitZ(), 0.0, Vec3::Constant(kPi)};
+  Scene scene{{test::square(1.0, 0.0, Vec3(0.5, 0.4, 0.3), false)}};
+  Surface& plate = scene.surfaces[0];
+  plate.uv = (0.5 * plate.positions.leftCols(2)).array() + 0.5;
+  plate.uv.col(1) = 1.0 - plate.uv.col(1).array();  // glTF: v runs down
+  plate.colour_map = {2, 2, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255}};
+  const Radiance picture = render_radiance(scene, options);
+  EXPECT_NEAR((at(picture, 3, 3) - Vec3(0.5, 0.0, 0.0)).norm(), 0.0, 1e-6);
+  EXPECT_NEAR((at(picture, 28, 3) - Vec3(0.0, 0.4, 0.0)).norm(), 0.0, 1e-6);
+  EXPECT_NEAR((at(picture, 3, 28) - Vec3(0.0, 0.0, 0.3)).norm(), 0.0, 1e-6);
+  EXPECT_NEAR((at(picture, 28, 28) - Vec3(0.5, 0.4, 0.3)).norm(), 0.0, 1e-6);
+}
+
+TEST(SheetOptics, GreyStaysGreyAndNothingIsGained) {
+  const SheetOptics grey = sheet_optics(Vec3::Constant(0.5), 1.0);
   EXPECT_NEAR((grey.under - Vec3::Constant(0.5)).norm(), 0.0, 1e-15);
   EXPECT_NEAR((grey.transmittance - Vec3::Constant(0.5)).norm(), 0.0, 1e-15);
   // Property: the sum never exceeds what arrives after shading_point's limit; the raw colours stay in [0, 1].
-  Random random(7, "leaf_optics");
+  Random random(7, "sheet_optics");
   for (int i = 0; i < 200; ++i) {
     const Vec3 colour(random.uniform(), random.uniform(), random.uniform());
-    const LeafOptics optics = leaf_optics(colour, random.uniform());
+    const SheetOptics optics = sheet_optics(colour, random.uniform());
     EXPECT_GE(optics.transmittance.minCoeff(), 0.0);
     EXPECT_LE(optics.under.maxCoeff(), 1.0);
     EXPECT_TRUE((optics.transmittance.array() <= colour.array() + 1e-15).all());

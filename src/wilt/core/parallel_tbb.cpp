@@ -27,14 +27,14 @@ double parallel_sum(int count, int block, const std::function<double(int, int)>&
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
+// A copy of a control ends it, so it is made in place.
 struct ThreadLimit::Impl {
+  explicit Impl(int threads) : control(tbb::global_control::max_allowed_parallelism, std::size_t(threads)) {}
   tbb::global_control control;
 };
 
 ThreadLimit::ThreadLimit(int threads) {
-  if (threads > 0)
-    impl_ = std::make_unique<Impl>(
-        Impl{tbb::global_control(tbb::global_control::max_allowed_parallelism, threads)});
+  if (threads > 0) impl_ = std::make_unique<Impl>(threads);
 }
 
 ThreadLimit::~ThreadLimit() = default;

@@ -26,7 +26,7 @@ Json rounded(const Points3& points) {
 Json veins_json(const GlbScene& scene) {
   Json veins = Json::array();
   if (scene.venation == nullptr) return veins;
-  const std::vector<VeinLine> lines = vein_lines(scene.leaf, *scene.venation);
+  const std::vector<RestVein> lines = vein_lines(scene.leaf, *scene.venation);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::vector<SurfacePoint>& path = scene.venation->veins[i].path.points;
     std::vector<int> faces;

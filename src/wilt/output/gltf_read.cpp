@@ -79,11 +79,11 @@ int attribute(const std::map<std::string, int>& attributes, const std::string& n
   return found == attributes.end() ? -1 : found->second;
 }
 
-// The base and then base + target for every morph target that has the attribute.
+// Base + target for every morph target; the base alone where there are none that have the attribute.
 std::vector<Points3> morphed(const Model& model, const tinygltf::Primitive& primitive,
                              const std::string& name) {
   const Points3 base = model.floats(attribute(primitive.attributes, name), 3);
-  std::vector<Points3> frames{base};
+  std::vector<Points3> frames;
   for (const auto& target : primitive.targets) {
     const int accessor = attribute(target, name);
     if (accessor < 0) continue;
@@ -91,6 +91,7 @@ std::vector<Points3> morphed(const Model& model, const tinygltf::Primitive& prim
     if (difference.rows() != base.rows()) refuse("a morph target differs in size from its mesh");
     frames.push_back(base + difference);
   }
+  if (frames.empty()) frames.push_back(base);
   return frames;
 }
 
@@ -120,6 +121,18 @@ std::vector<double> read_times(const Model& model, const tinygltf::Model& gltf) 
   const tinygltf::AnimationSampler& sampler = Model::at(gltf.animations.front().samplers, 0, "sampler");
   const Values times = model.floats(sampler.input, 1);
   return {times.data(), times.data() + times.size()};
+}
+
+// The bytes of the image behind a texture, or nothing.
+std::string read_texture(const tinygltf::Model& gltf, int texture) {
+  if (texture < 0) return {};
+  const int source = Model::at(gltf.textures, texture, "texture").source;
+  const tinygltf::BufferView& view =
+      Model::at(gltf.bufferViews, Model::at(gltf.images, source, "image").bufferView, "buffer view");
+  const std::vector<unsigned char>& data = Model::at(gltf.buffers, view.buffer, "buffer").data;
+  if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
+    refuse("the texture reaches beyond the file's data");
+  return {reinterpret_cast<const char*>(data.data()) + view.byteOffset, view.byteLength};
 }
 
 Points3 points_from(const Json& rows) {
@@ -177,6 +190,10 @@ GlbFile read_all(std::string_view bytes, std::string_view json) {
   GlbFile file;
   for (const tinygltf::Mesh& mesh : gltf.meshes) file.meshes.push_back(read_mesh(model, mesh));
   if (file.meshes.empty()) refuse("it has no mesh");
+  if (!gltf.materials.empty()) {
+    file.texture = read_texture(gltf, gltf.materials[0].pbrMetallicRoughness.baseColorTexture.index);
+    file.normal_texture = read_texture(gltf, gltf.materials[0].normalTexture.index);
+  }
   file.times = read_times(model, gltf);
   read_extras(document, file);
   for (const GlbMesh& mesh : file.meshes) {

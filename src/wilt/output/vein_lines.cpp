@@ -18,12 +18,12 @@ auto interpolate(const Faces& faces, const Values& values, const SurfacePoint& p
 
 }  // namespace
 
-std::vector<VeinLine> vein_lines(const Leaf& leaf, const Venation& venation) {
-  std::vector<VeinLine> lines;
+std::vector<RestVein> vein_lines(const Leaf& leaf, const Venation& venation) {
+  std::vector<RestVein> lines;
   lines.reserve(venation.veins.size());
   for (const Vein& vein : venation.veins) {
     const int count = static_cast<int>(vein.path.points.size());
-    VeinLine line{vein.order, vein.tip, Points3(count, 3), Points2(count, 2)};
+    RestVein line{vein.order, vein.tip, Points3(count, 3), Points2(count, 2)};
     for (int i = 0; i < count; ++i) {
       const SurfacePoint& point = vein.path.points[static_cast<std::size_t>(i)];
       line.positions.row(i) = interpolate(leaf.mesh.face_matrix(), leaf.positions, point);

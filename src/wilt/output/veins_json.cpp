@@ -54,7 +54,7 @@ std::string veins_json(const Leaf& leaf, const Venation& venation, const std::op
     tips.push_back(std::move(json));
   }
   Json veins = Json::array();
-  const std::vector<VeinLine> lines = vein_lines(leaf, venation);
+  const std::vector<RestVein> lines = vein_lines(leaf, venation);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     Json json = {{"order", lines[i].order}};
     if (lines[i].tip >= 0) json["tip"] = lines[i].tip;

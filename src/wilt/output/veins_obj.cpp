@@ -13,7 +13,7 @@ std::string veins_obj(const Leaf& leaf, const Venation& venation) {
   std::string text = fmt::format("# wilt {}\n# units: {}, up: Y\n", version(), unit_name(leaf.placement));
   const auto out = std::back_inserter(text);
   int first = 1, number = 0;
-  for (const VeinLine& line : vein_lines(leaf, venation)) {
+  for (const RestVein& line : vein_lines(leaf, venation)) {
     fmt::format_to(out, "o {}_{}\n", line.order == 1 ? "primary" : "secondary", ++number);
     const Points3 points = file_points(leaf.placement, line.positions);
     for (int i = 0; i < points.rows(); ++i)

@@ -101,11 +101,11 @@ void append_blade(std::string& svg, const Leaf& leaf, const Drawing& drawing) {
                  path, 0.003 * drawing.length);
 }
 
-void append_veins(std::string& svg, const std::vector<VeinLine>& lines, int order, double length) {
+void append_veins(std::string& svg, const std::vector<RestVein>& lines, int order, double length) {
   const double start = (order == 1 ? 0.0045 : 0.0018) * length, end = start / 5.0;
   fmt::format_to(std::back_inserter(svg), "  <g class=\"veins order-{}\" fill=\"{}\">\n", order,
                  order == 1 ? "#4c6b2a" : "#7f9a58");
-  for (const VeinLine& line : lines) {
+  for (const RestVein& line : lines) {
     if (line.order != order || line.positions.rows() < 2) continue;
     fmt::format_to(std::back_inserter(svg), "    <path d=\"{}\"/>\n",
                    polygon(band(top_view(line.positions), start, end)));
@@ -151,7 +151,7 @@ std::string veins_svg(const Leaf& leaf, const Venation& venation) {
                                 kMillimetres * leaf.stalk.radii.back())));
   }
   append_blade(svg, leaf, drawing);
-  const std::vector<VeinLine> lines = vein_lines(leaf, venation);
+  const std::vector<RestVein> lines = vein_lines(leaf, venation);
   append_veins(svg, lines, 2, drawing.length);
   append_veins(svg, lines, 1, drawing.length);
   append_tips(svg, leaf, venation, drawing);

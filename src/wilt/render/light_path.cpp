@@ -8,13 +8,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "wilt/render/detail.hpp"
+#include "wilt/render/sampling.hpp"
 #include "wilt/render/tone.hpp"
 
 namespace wilt {
 namespace {
 
 constexpr double kNormalReflectance = 0.04;               // F0 of wax, index 1.5
+constexpr double kScatteredAngle = 0.02;                  // radians: width of a ray between surfaces
 constexpr double kGroundInner = 2.5, kGroundOuter = 6.0;  // world units: where the ground fades
 
 double fresnel(double cosine) {
@@ -38,6 +39,12 @@ double coat_reflection(const Vec3& n, const Vec3& view, const Vec3& light, doubl
   return d * g * fresnel(view.dot(h)) / (4.0 * nv);
 }
 
+// 0 below `a`, 1 above `b`, cubic between.
+double smooth_step(double a, double b, double x) {
+  const double t = std::clamp((x - a) / (b - a), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
 double luminance(const Vec3& rgb) {
   return rgb.dot(Vec3(0.2126, 0.7152, 0.0722));
 }
@@ -49,11 +56,12 @@ double coat_share(const ShadingPoint& point, const Vec3& view, bool first) {
 
 }  // namespace
 
-LightPath::LightPath(const World& world, const PictureOptions& options)
+LightPath::LightPath(const World& world, const PictureOptions& options, double pixel_angle)
     : world_(world),
       options_(options),
       sun_direction_(options.lighting.sun.direction.normalized()),
       sun_frame_(sun_direction_),
+      pixel_angle_(pixel_angle),
       background_(radiance_of(options.background) / options.exposure) {
   double lowest = 1e300;
   for (const Surface& surface : world.scene().surfaces)
@@ -155,7 +163,7 @@ Vec3 LightPath::radiance(Ray ray, Sampler& sampler) const {
       if (first) light = (1.0 - presence) * background_, weight *= presence;
       point = ground_point(p, first);
     } else {
-      point = shading_point(world_, ray, *hit, first, options_.seed);
+      point = shading_point(world_, ray, *hit, hit->distance * (first ? pixel_angle_ : kScatteredAngle));
     }
     const Vec3 view = -ray.direction;
     light += weight.cwiseProduct(sunlight(point, view, first, sampler));

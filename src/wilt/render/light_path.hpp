@@ -18,10 +18,11 @@ namespace wilt {
 /// nothing in a uniform sky is that sky for any number of bounces.
 class LightPath {
  public:
-  /// Both must outlive this.
-  LightPath(const World& world, const PictureOptions& options);
+  /// World and options must outlive this.
+  LightPath(const World& world, const PictureOptions& options, double pixel_angle);
 
-  /// Linear RGB radiance along `ray` (world units) towards its origin.
+  /// Linear RGB radiance along `ray` (world units) towards its origin. A ray from the eye is as wide as a
+  /// pixel.
   Vec3 radiance(Ray ray, Sampler& sampler) const;
 
  private:
@@ -41,6 +42,7 @@ class LightPath {
   const PictureOptions& options_;
   Vec3 sun_direction_;
   Frame3 sun_frame_;
+  double pixel_angle_;          // radians
   double ground_height_ = 0.0;  // world units
   Vec3 background_, ground_albedo_;
 };

@@ -15,7 +15,8 @@
 namespace wilt {
 namespace {
 
-constexpr int kTile = 16;  // pixels
+constexpr int kTile = 16;   // pixels
+constexpr int kRound = 16;  // samples
 
 void require(bool ok, const char* name, double value, const char* allowed) {
   if (!ok)
@@ -51,13 +52,24 @@ class Lens {
   int width_, height_;
 };
 
+// Rounds of kRound samples, until the mean is known well enough or `options.samples` are spent.
 Vec3 pixel_radiance(const LightPath& path, const Lens& lens, const PictureOptions& options, int x, int y) {
   const std::uint64_t hash = mix_hash(mix_hash(options.seed, std::uint64_t(x)), std::uint64_t(y));
   Vec3 sum = Vec3::Zero();
-  for (int i = 0; i < options.samples; ++i) {
-    Sampler sampler(hash, std::uint32_t(i), std::uint32_t(options.samples));
-    const Vec2 u = sampler.next();
-    sum += path.radiance(lens.ray(x + 0.5 + tent(u.x()), y + 0.5 + tent(u.y())), sampler);
+  double brightness = 0.0, squares = 0.0;
+  for (int done = 0; done < options.samples;) {
+    const int count = std::min(kRound, options.samples - done);
+    for (int i = 0; i < count; ++i) {
+      Sampler sampler(mix_hash(hash, std::uint64_t(done)), std::uint32_t(i), std::uint32_t(count));
+      const Vec2 u = sampler.next();
+      const Vec3 light = path.radiance(lens.ray(x + 0.5 + tent(u.x()), y + 0.5 + tent(u.y())), sampler);
+      sum += light;
+      brightness += light.mean();
+      squares += light.mean() * light.mean();
+    }
+    done += count;
+    const double mean = brightness / done, variance = std::max(squares / done - mean * mean, 0.0);
+    if (std::sqrt(variance / done) < options.noise * (mean + 0.1)) return sum / done;
   }
   return sum / options.samples;
 }
@@ -68,6 +80,7 @@ void PictureOptions::validate() const {
   require(width >= 1 && width <= 16384, "width", width, "1 to 16384 pixels");
   require(height >= 1 && height <= 16384, "height", height, "1 to 16384 pixels");
   require(samples >= 1 && samples <= 65536, "samples", samples, "1 to 65536 per pixel");
+  require(noise >= 0.0 && noise <= 1.0, "noise", noise, "0 to 1");
   require(bounces >= 1 && bounces <= 16, "bounces", bounces, "1 to 16");
   require(exposure > 0.0 && std::isfinite(exposure), "exposure", exposure, "above 0");
   require(background.minCoeff() >= 0.0 && background.maxCoeff() <= 1.0, "background", background.maxCoeff(),
@@ -93,7 +106,7 @@ Radiance render_radiance(const Scene& scene, const PictureOptions& options, cons
   const Camera camera =
       options.camera ? *options.camera : frame_camera(scene_points(scene), aspect, options.view);
   const Lens lens(camera, world, options.width, options.height);
-  const LightPath path(world, options);
+  const LightPath path(world, options, camera.field_of_view / options.height);
 
   Radiance picture{options.width, options.height, Points3(Eigen::Index(options.width) * options.height, 3)};
   const int columns = (options.width + kTile - 1) / kTile;

@@ -5,19 +5,20 @@
 #include <optional>
 #include <vector>
 
+#include "wilt/core/image.hpp"
 #include "wilt/core/monitor.hpp"
 #include "wilt/core/types.hpp"
 #include "wilt/render/camera.hpp"
-#include "wilt/render/image.hpp"
 #include "wilt/render/scene.hpp"
 
 namespace wilt {
 
 struct PictureOptions {
-  int width = 960, height = 720;         ///< pixels, 1 to 16384
-  int samples = 16;                      ///< per pixel, 1 to 65536; 16 is smooth, powers of two are best
-  std::uint64_t seed = 1;                ///< of the samples and of the fine detail
-  int bounces = 3;                       ///< of light between surfaces, 1 to 16
+  int width = 960, height = 720;  ///< pixels, 1 to 16384
+  int samples = 64;               ///< per pixel at most, 1 to 65536; multiples of 16 are best
+  double noise = 0.02;            ///< a pixel with a smaller relative error takes no more samples, 0 to 1
+  std::uint64_t seed = 1;         ///< of the samples
+  int bounces = 3;                ///< of light between surfaces, 1 to 16
   Vec3 background = {0.93, 0.92, 0.90};  ///< as shown: sRGB, 0 to 1; a lit ground has the same colour
   bool ground = true;                    ///< a plane that takes the shadows and fades into the background
   std::optional<double> ground_height;   ///< metres; the scene's lowest point when not given

@@ -47,17 +47,13 @@ RTCRay embree_ray(const Ray& ray) {
 }  // namespace
 
 World::World(const Scene& scene)
-    : scene_(scene),
-      device_(rtcNewDevice("threads=1"), rtcReleaseDevice),
-      surfaces_(nullptr, rtcReleaseScene),
-      veins_(nullptr, rtcReleaseScene) {
+    : scene_(scene), device_(rtcNewDevice(nullptr), rtcReleaseDevice), surfaces_(nullptr, rtcReleaseScene) {
   WILT_CHECK(device_ != nullptr, rtcGetDeviceError(nullptr));
   const Points3 points = scene_points(scene_);
   const Vec3 low = points.colwise().minCoeff().transpose(), high = points.colwise().maxCoeff().transpose();
   centre_ = 0.5 * (low + high);
   scale_ = std::max(0.5 * (high - low).norm(), std::numeric_limits<double>::min());
   add_surfaces();
-  add_veins();
 }
 
 void World::add_surfaces() {
@@ -68,6 +64,8 @@ void World::add_surfaces() {
     normalise_rows(surface.normals);
     surface.positions.rowwise() -= centre_.transpose();
     surface.positions /= scale_;
+    maps_.push_back({Texture(surface.colour_map, Texture::Kind::colour),
+                     Texture(surface.normal_map, Texture::Kind::direction)});
 
     const Handle<RTCGeometryTy> geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE),
                                          rtcReleaseGeometry);
@@ -84,43 +82,6 @@ void World::add_surfaces() {
     rtcAttachGeometry(surfaces_.get(), geometry.get());
   }
   rtcCommitScene(surfaces_.get());
-}
-
-void World::add_veins() {
-  constexpr double kEndRadius = 1.0 / 3.0;  // relative to the base
-  for (int i = 0; i < static_cast<int>(scene_.veins.size()); ++i) {
-    VeinLine& vein = scene_.veins[i];
-    vein.positions.rowwise() -= centre_.transpose();
-    vein.positions /= scale_;
-    vein.radius /= scale_;
-    largest_radius_ = std::max(largest_radius_, vein.radius);
-    const int pieces = static_cast<int>(vein.positions.rows()) - 1;
-    const auto radius = [&](int k) { return vein.radius * (1.0 - (1.0 - kEndRadius) * k / pieces); };
-    for (int k = 0; k < pieces; ++k)
-      segments_.push_back({vein.positions.row(k).transpose(), vein.positions.row(k + 1).transpose(),
-                           radius(k), radius(k + 1), i});
-  }
-  if (segments_.empty()) return;
-
-  veins_.reset(rtcNewScene(device_.get()));
-  const Handle<RTCGeometryTy> geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER),
-                                       rtcReleaseGeometry);
-  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(segments_.size()));
-  rtcSetGeometryUserData(geometry.get(), &segments_);
-  rtcSetGeometryBoundsFunction(
-      geometry.get(),
-      [](const RTCBoundsFunctionArguments* arguments) {
-        const auto& segments = *static_cast<const std::vector<Segment>*>(arguments->geometryUserPtr);
-        const Segment& s = segments[arguments->primID];
-        const Eigen::Vector3f low = s.a.cwiseMin(s.b).cast<float>(), high = s.a.cwiseMax(s.b).cast<float>();
-        RTCBounds& bounds = *arguments->bounds_o;
-        bounds.lower_x = low.x(), bounds.lower_y = low.y(), bounds.lower_z = low.z();
-        bounds.upper_x = high.x(), bounds.upper_y = high.y(), bounds.upper_z = high.z();
-      },
-      nullptr);
-  rtcCommitGeometry(geometry.get());
-  rtcAttachGeometry(veins_.get(), geometry.get());
-  rtcCommitScene(veins_.get());
 }
 
 std::optional<Hit> World::first_hit(const Ray& ray) const {
@@ -147,41 +108,6 @@ bool World::blocked(const Ray& ray) const {
   rtcInitIntersectContext(&context);
   rtcOccluded1(surfaces_.get(), &context, &query);
   return query.tfar < 0.0f;
-}
-
-// What a point query carries from segment to segment.
-struct VeinSearch {
-  const World& world;
-  Vec3 point;
-  double nearest;  // in radii of the vein
-  VeinHit hit;
-
-  static bool visit(RTCPointQueryFunctionArguments* arguments) {
-    auto& search = *static_cast<VeinSearch*>(arguments->userPtr);
-    const World::Segment& s = search.world.segments_[arguments->primID];
-    const Vec3 along = s.b - s.a, from = search.point - s.a;
-    const double length2 = along.squaredNorm();
-    const double t = length2 > 0.0 ? std::clamp(from.dot(along) / length2, 0.0, 1.0) : 0.0;
-    const Vec3 offset = from - t * along;
-    const double distance = offset.norm(), radius = s.radius_a + t * (s.radius_b - s.radius_a);
-    if (distance < search.nearest * radius) {
-      search.nearest = distance / radius;
-      search.hit = {distance, radius, distance > 0.0 ? Vec3(offset / distance) : Vec3(Vec3::Zero()), s.vein};
-    }
-    return false;  // the query's radius stays: the reach depends on the segment's own radius
-  }
-};
-
-std::optional<VeinHit> World::nearest_vein(const Vec3& point, double reach) const {
-  if (!veins_) return std::nullopt;
-  VeinSearch search{*this, point, reach, {}};
-  RTCPointQuery query{float(point.x()), float(point.y()), float(point.z()), 0.0f,
-                      float(reach * largest_radius_)};
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(veins_.get(), &query, &context, &VeinSearch::visit, &search);
-  if (search.hit.vein < 0) return std::nullopt;
-  return search.hit;
 }
 
 }  // namespace wilt

@@ -1,4 +1,4 @@
-// The scene as rays see it: nearest hits, shadows, and the nearest vein, by Embree 3.
+// The scene as rays see it: nearest hits and shadows, by Embree 3.
 #pragma once
 
 #include <memory>
@@ -7,6 +7,7 @@
 
 #include "wilt/core/types.hpp"
 #include "wilt/render/scene.hpp"
+#include "wilt/render/texture.hpp"
 
 struct RTCDeviceTy;
 struct RTCSceneTy;
@@ -24,11 +25,9 @@ struct Hit {
   Vec3 geometric_normal;  ///< of unit length, of the upper side
 };
 
-struct VeinHit {
-  double distance = 0.0;  ///< to the vein's centre line
-  double radius = 0.0;    ///< of the vein there
-  Vec3 away;              ///< unit vector from the centre line to the point
-  int vein = -1;
+/// The maps of a surface; empty ones are never asked.
+struct Maps {
+  Texture colour, normal;
 };
 
 /// A copy of a scene in units of its radius about its centre, so that every tolerance is a plain number.
@@ -40,32 +39,23 @@ class World {
   double scale() const { return scale_; }        ///< metres in a world unit
   Vec3 to_world(const Vec3& metres) const { return (metres - centre_) / scale_; }
 
+  const Maps& maps(int surface) const { return maps_[std::size_t(surface)]; }
+
   std::optional<Hit> first_hit(const Ray& ray) const;
   bool blocked(const Ray& ray) const;
-  /// The vein whose ridge is highest at a point, if one is within `reach` of its radii.
-  std::optional<VeinHit> nearest_vein(const Vec3& point, double reach) const;
 
  private:
-  struct Segment {
-    Vec3 a, b;
-    double radius_a, radius_b;
-    int vein;
-  };
   template <class T>
   using Handle = std::unique_ptr<T, void (*)(T*)>;
 
   void add_surfaces();
-  void add_veins();
 
   Scene scene_;
   Vec3 centre_;
   double scale_ = 1.0;
-  std::vector<Segment> segments_;
-  double largest_radius_ = 0.0;
+  std::vector<Maps> maps_;
   Handle<RTCDeviceTy> device_;
-  Handle<RTCSceneTy> surfaces_, veins_;
-
-  friend struct VeinSearch;
+  Handle<RTCSceneTy> surfaces_;
 };
 
 }  // namespace wilt

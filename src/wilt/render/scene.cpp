@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -19,7 +20,17 @@ void check_finish(const Finish& finish, const std::string& name) {
   require(share(finish.translucency), "translucency", finish.translucency, "0 to 1");
   require(share(finish.gloss), "gloss", finish.gloss, "0 to 1");
   require(finish.roughness >= 0.05 && finish.roughness <= 1.0, "roughness", finish.roughness, "0.05 to 1");
-  require(share(finish.detail), "detail", finish.detail, "0 to 1");
+  require(finish.relief >= 0.0 && finish.relief <= 4.0, "relief", finish.relief, "0 to 4");
+}
+
+void check_map(const Image& map, const Surface& surface, const std::string& name) {
+  if (map.rgb.empty()) return;
+  const auto bytes = 3 * std::size_t(std::max(map.width, 0)) * std::size_t(std::max(map.height, 0));
+  if (map.rgb.size() != bytes)
+    throw Error(ErrorCode::input, fmt::format("{}: {} x {} pixels with {} bytes; 3 for each pixel are needed",
+                                              name, map.width, map.height, map.rgb.size()));
+  if (surface.uv.rows() == 0)
+    throw Error(ErrorCode::input, name + ": the surface has no texture coordinates to place it by");
 }
 
 void check_surface(const Surface& surface, const std::string& name) {
@@ -41,15 +52,8 @@ void check_surface(const Surface& surface, const std::string& name) {
       if (surface.faces(f, i) < 0 || surface.faces(f, i) >= vertices)
         fail(fmt::format("face {} names vertex {}; there are {}", f, surface.faces(f, i), vertices));
   check_finish(surface.finish, name);
-}
-
-void check_vein(const VeinLine& vein, const std::string& name) {
-  if (vein.positions.rows() < 2)
-    throw Error(ErrorCode::input,
-                fmt::format("{}: {} points; at least 2 are needed", name, vein.positions.rows()));
-  if (!vein.positions.allFinite()) throw Error(ErrorCode::input, name + ": a position is not finite");
-  if (!(vein.radius > 0.0) || !std::isfinite(vein.radius))
-    throw Error(ErrorCode::input, fmt::format("{}: radius is {} m; it must be above 0", name, vein.radius));
+  check_map(surface.colour_map, surface, name + ", colour map");
+  check_map(surface.normal_map, surface, name + ", normal map");
 }
 
 }  // namespace
@@ -67,15 +71,12 @@ Vec3 Sky::mean_above() const {
 Points3 scene_points(const Scene& scene) {
   Eigen::Index count = 0;
   for (const Surface& surface : scene.surfaces) count += surface.positions.rows();
-  for (const VeinLine& vein : scene.veins) count += vein.positions.rows();
   Points3 points(count, 3);
   Eigen::Index at = 0;
-  const auto append = [&](const Points3& part) {
-    points.middleRows(at, part.rows()) = part;
-    at += part.rows();
-  };
-  for (const Surface& surface : scene.surfaces) append(surface.positions);
-  for (const VeinLine& vein : scene.veins) append(vein.positions);
+  for (const Surface& surface : scene.surfaces) {
+    points.middleRows(at, surface.positions.rows()) = surface.positions;
+    at += surface.positions.rows();
+  }
   return points;
 }
 
@@ -85,7 +86,6 @@ void validate(const Scene& scene) {
     check_surface(scene.surfaces[i], fmt::format("surface {}", i));
     faces += scene.surfaces[i].faces.rows();
   }
-  for (std::size_t i = 0; i < scene.veins.size(); ++i) check_vein(scene.veins[i], fmt::format("vein {}", i));
   if (faces == 0)
     throw Error(ErrorCode::input, "the scene is empty: no surface has a face; there is nothing to draw");
 }

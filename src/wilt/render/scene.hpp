@@ -1,8 +1,9 @@
-// What a picture shows: surfaces, veins on them, and the light.
+// What a picture shows: surfaces and the light.
 #pragma once
 
 #include <vector>
 
+#include "wilt/core/image.hpp"
 #include "wilt/core/types.hpp"
 
 namespace wilt {
@@ -12,10 +13,10 @@ struct Finish {
   double translucency = 0.55;  ///< of a leaf: transmittance relative to reflectance, in [0, 1]
   double gloss = 0.7;          ///< weight of the waxy coat, in [0, 1]
   double roughness = 0.42;     ///< of the coat (GGX alpha), in [0.05, 1]
-  double detail = 1.0;         ///< of a leaf: strength of the fine vein network and the mottling, in [0, 1]
+  double relief = 1.0;         ///< strength of the normal map, in [0, 4]
 };
 
-/// A triangle mesh, in metres, Z up.
+/// A triangle mesh, Z up.
 ///
 /// A leaf is a thin sheet: it reflects and transmits, its underside (faces seen clockwise) is paler. A solid
 /// is opaque and has one colour on both sides.
@@ -24,22 +25,15 @@ struct Surface {
   Points3 normals;    ///< #V x 3, or empty: computed, area-weighted
   Faces faces;        ///< #F x 3
   Points3 colours;    ///< #V x 3, linear RGB diffuse reflectance of the upper side, in [0, 1]
-  Points2 uv;         ///< #V x 2, carries the fine detail along with the leaf; empty: x and y carry it
+  Points2 uv;         ///< #V x 2, glTF convention: origin top left; needed by the maps
+  Image colour_map;   ///< sRGB, multiplies the colours; may be empty
+  Image normal_map;   ///< tangent space as in glTF (x along u, y against v, z out); may be empty
   bool leaf = true;
   Finish finish;
 };
 
-/// A vein as a polyline on the blade, from its base outwards; shown as a ridge and a line of colour.
-struct VeinLine {
-  Points3 positions;                 ///< #K x 3, metres, K >= 2, on a leaf's surface
-  double radius = 0.0;               ///< at the base, metres, > 0; a third of it at the end
-  int order = 1;                     ///< 1: primary, 2: secondary
-  Vec3 colour = {0.50, 0.36, 0.15};  ///< linear RGB
-};
-
 struct Scene {
   std::vector<Surface> surfaces;
-  std::vector<VeinLine> veins;
 };
 
 /// A distant disc.
@@ -65,10 +59,10 @@ struct Lighting {
   Sky sky;
 };
 
-/// Every position of the scene, surfaces first, #P x 3.
+/// Every position of the scene, #P x 3.
 Points3 scene_points(const Scene& scene);
 
-/// Throws Error{input} that names the first surface or vein that cannot be drawn and why; an empty scene too.
+/// Throws Error{input} that names the first surface that cannot be drawn and why; an empty scene too.
 void validate(const Scene& scene);
 
 }  // namespace wilt

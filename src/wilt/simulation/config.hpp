@@ -72,6 +72,9 @@ struct Config {
     double strength = 0.004, petiole_stiffness = 15.0, petiole_turgor_loss = 0.9;
   } gravity;
   struct {
+    std::int64_t size = 1024;
+  } texture;
+  struct {
     std::int64_t vertices = 120;
   } reference;
   struct {

@@ -135,6 +135,8 @@ std::vector<Setting> make_settings() {
      0.01, 1e6, {}, WILT_FIELD(gravity.petiole_stiffness)},
     {"gravity.petiole_turgor_loss", "", "cell: share of it that goes with the turgor",
      0, 0.999, {}, WILT_FIELD(gravity.petiole_turgor_loss)},
+    {"texture.size", "texels", "side of the blade's texture, 16 or more; 0: none, colours per vertex",
+     0, 8192, {}, WILT_FIELD(texture.size)},
     {"reference.vertices", "", "cell: n_ref, the vertex count that masses and forces are stated for",
      10, 1e6, {}, WILT_FIELD(reference.vertices)},
     {"solver.tolerance", "", "relative residual of the midpoint equation",

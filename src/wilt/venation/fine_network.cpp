@@ -1,10 +1,10 @@
-#include "wilt/render/detail.hpp"
+#include "wilt/venation/fine_network.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "wilt/render/sampling.hpp"
+#include "wilt/core/hash.hpp"
 
 namespace wilt {
 namespace {
@@ -13,22 +13,13 @@ std::uint64_t lattice_hash(std::int64_t i, std::int64_t j, std::uint64_t seed) {
   return mix_hash(mix_hash(seed, static_cast<std::uint64_t>(i)), static_cast<std::uint64_t>(j));
 }
 
-// Walls of one size of cells as ridges `width` cells wide; `frequency` cells in a unit of length.
-void add_network(FineDetail& detail, const Vec2& p, double frequency, double width, double steepness,
-                 double strength, std::uint64_t seed) {
-  const CellWall wall = cell_wall(p * frequency, seed);
-  if (wall.distance >= width) return;
-  const double x = wall.distance / width, height = (1.0 - x * x) * (1.0 - x * x);
-  detail.vein = std::max(detail.vein, strength * height);
-  detail.slope += (-steepness * 4.0 * x * (1.0 - x * x)) * wall.gradient;
+// Walls `width` of a cell wide: 1 on a wall, 0 in a cell.
+double ridge(const CellWall& wall, double width) {
+  const double x = std::min(wall.distance / width, 1.0);
+  return (1.0 - x * x) * (1.0 - x * x);
 }
 
 }  // namespace
-
-double smooth_step(double a, double b, double x) {
-  const double t = std::clamp((x - a) / (b - a), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 Noise value_noise(const Vec2& p, std::uint64_t seed) {
   const double fx = std::floor(p.x()), fy = std::floor(p.y());
@@ -66,21 +57,21 @@ CellWall cell_wall(const Vec2& p, std::uint64_t seed) {
   return {(0.5 * (nearest + other) - p).dot(across), -across};
 }
 
-FineDetail fine_detail(const Vec2& p, std::uint64_t seed) {
-  FineDetail detail;
-  // Bent a little, so that the walls are no straight lines.
-  const Noise bend_x = value_noise(p * 31.0, mix_hash(seed, 1)),
-              bend_y = value_noise(p * 31.0, mix_hash(seed, 2));
-  const Vec2 bent = p + 0.006 * Vec2(bend_x.value, bend_y.value);
-  add_network(detail, bent, 24.0, 0.16, 0.20, 1.0, mix_hash(seed, 3));
-  add_network(detail, bent, 72.0, 0.22, 0.16, 0.6, mix_hash(seed, 4));
-
-  const Noise crinkle = value_noise(p * 42.0, mix_hash(seed, 5)),
-              grain = value_noise(p * 160.0, mix_hash(seed, 6));
-  detail.slope += 0.09 * crinkle.gradient + 0.05 * grain.gradient;
-  detail.tone =
-      0.6 * value_noise(p * 7.0, mix_hash(seed, 7)).value + 0.3 * crinkle.value + 0.25 * grain.value;
-  return detail;
+FineNetwork fine_network(const Vec2& p, std::uint64_t seed) {
+  // Bent at two sizes, so that the walls are no straight lines.
+  const auto bent = [&p, seed](double frequency, double reach, std::uint64_t purpose) -> Vec2 {
+    return reach * Vec2(value_noise(p * frequency, mix_hash(seed, purpose)).value,
+                        value_noise(p * frequency, mix_hash(seed, purpose + 1)).value);
+  };
+  const Vec2 coarse = p + bent(31.0, 0.006, 11), fine = coarse + bent(110.0, 0.0012, 21);
+  const double fade = std::clamp(1.2 + value_noise(p * 80.0, mix_hash(seed, 31)).value, 0.3, 1.0);
+  FineNetwork network;
+  const CellWall tertiary = cell_wall(coarse * 22.0, mix_hash(seed, 3));
+  network.tertiary = ridge(tertiary, 0.15);
+  network.within = tertiary.distance;
+  network.quaternary = fade * ridge(cell_wall(fine * 60.0, mix_hash(seed, 4)), 0.20);
+  network.areole = fade * fade * ridge(cell_wall(fine * 150.0, mix_hash(seed, 5)), 0.26);
+  return network;
 }
 
 }  // namespace wilt

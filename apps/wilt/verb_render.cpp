@@ -1,0 +1,228 @@
+// wilt render: pictures, contact sheets and films of a result.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <optional>
+
+#include "run.hpp"
+#include "verbs.hpp"
+#include "wilt/core/error.hpp"
+#include "wilt/core/parallel.hpp"
+#include "wilt/output/gltf.hpp"
+#include "wilt/output/image_codec.hpp"
+#include "wilt/render/contact_sheet.hpp"
+#include "wilt/render/leaf_scene.hpp"
+#include "wilt/render/movie.hpp"
+#include "wilt/render/picture.hpp"
+
+namespace wilt::cli {
+namespace {
+
+constexpr int kSheetFrames = 12;
+
+struct Request {
+  std::string file, output, size, view, sun;
+  std::optional<int> frame, samples, columns, frames;
+  int fps = 25;
+  int threads = 0;
+  std::uint64_t seed = 1;
+};
+
+enum class Kind { picture, sheet, movie };
+
+Kind kind_of(const Request& request) {
+  if (MovieWriter::is_movie(request.output)) return Kind::movie;
+  const std::filesystem::path path(request.output);
+  if (!is_picture_path(request.output))
+    throw Error(
+        ErrorCode::configuration,
+        fmt::format("cannot write '{}': a picture or sheet is .png or .jpg, a film .mp4, .webm or .gif",
+                    request.output));
+  const std::string stem = path.stem().string();
+  const bool named = stem.size() >= 5 && stem.compare(stem.size() - 5, 5, "sheet") == 0;
+  if (request.frame) return Kind::picture;
+  return named || request.columns || request.frames ? Kind::sheet : Kind::picture;
+}
+
+// Two numbers with `separator` between them.
+Vec2 parse_pair(const std::string& text, char separator, const char* option, const char* example) {
+  char* end = nullptr;
+  const double first = std::strtod(text.c_str(), &end);
+  if (end != text.c_str() && *end == separator) {
+    const char* second = end + 1;
+    const double value = std::strtod(second, &end);
+    if (end != second && *end == '\0' && std::isfinite(first) && std::isfinite(value)) return {first, value};
+  }
+  throw Error(ErrorCode::configuration,
+              fmt::format("{} takes two numbers like {}, not '{}'", option, example, text));
+}
+
+void set_size(PictureOptions& picture, const Request& request, Kind kind) {
+  static constexpr int kWidth[] = {960, 480, 640}, kHeight[] = {720, 360, 480};
+  picture.width = kWidth[int(kind)], picture.height = kHeight[int(kind)];
+  if (request.size.empty()) return;
+  const Vec2 size = parse_pair(request.size, 'x', "--size", "1920x1080");
+  for (int axis = 0; axis < 2; ++axis)
+    if (size[axis] != std::floor(size[axis]) || size[axis] < 16 || size[axis] > 16384)
+      throw Error(ErrorCode::configuration,
+                  fmt::format("--size is {}; width and height are 16 to 16384 pixels", request.size));
+  picture.width = int(size.x()), picture.height = int(size.y());
+}
+
+PictureOptions picture_options(const Request& request, Kind kind) {
+  PictureOptions picture;
+  set_size(picture, request, kind);
+  picture.samples = request.samples.value_or(kind == Kind::picture ? 256 : 64);
+  picture.seed = request.seed;
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  if (!request.view.empty()) {
+    const Vec2 view = parse_pair(request.view, ',', "--view", "-75,45");
+    picture.view.azimuth = view.x() * kDegree;
+    picture.view.elevation = view.y() * kDegree;
+  }
+  if (!request.sun.empty()) {
+    const Vec2 sun = parse_pair(request.sun, ',', "--sun", "140,35") * kDegree;
+    picture.lighting.sun.direction = {std::cos(sun.x()) * std::cos(sun.y()),
+                                      std::sin(sun.x()) * std::cos(sun.y()), std::sin(sun.y())};
+  }
+  return picture;
+}
+
+// One camera for all: closest that sees every frame.
+Camera camera_for(const LeafScene& leaf, const std::vector<double>& frames, const PictureOptions& picture) {
+  std::vector<Points3> parts;
+  Eigen::Index count = 0;
+  for (const double frame : frames) count += parts.emplace_back(scene_points(leaf.at(frame))).rows();
+  Points3 all(count, 3);
+  for (Eigen::Index at = 0; const Points3& part : parts) {
+    all.middleRows(at, part.rows()) = part;
+    at += part.rows();
+  }
+  return frame_camera(all, double(picture.width) / picture.height, picture.view);
+}
+
+std::vector<double> evenly(int count, double last) {
+  std::vector<double> frames;
+  for (int i = 0; i < count; ++i) frames.push_back(count == 1 ? last : last * i / (count - 1));
+  return frames;
+}
+
+// Progress over several pictures as one.
+Monitor part_of(const Monitor& whole, int index, int count) {
+  Monitor part = whole;
+  if (whole.progress)
+    part.progress = [whole, index, count](std::string_view stage, double fraction) {
+      whole.progress(stage, (index + fraction) / count);
+    };
+  return part;
+}
+
+Image sheet(const LeafScene& leaf, PictureOptions picture, const Request& request, const Monitor& monitor) {
+  const int count = std::min(request.frames.value_or(kSheetFrames), leaf.frames());
+  std::vector<double> frames = evenly(count, leaf.frames() - 1);
+  for (double& frame : frames) frame = std::round(frame);
+  picture.camera = camera_for(leaf, frames, picture);
+  std::vector<Image> images;
+  for (int i = 0; i < count; ++i)
+    images.push_back(render(leaf.at(frames[std::size_t(i)]), picture, part_of(monitor, i, count)));
+  return contact_sheet(images, request.columns.value_or(4));
+}
+
+// The frame that is shown at a time of the clip.
+double frame_at(const GlbFile& file, double time) {
+  std::size_t next = 1;
+  while (next + 1 < file.times.size() && file.times[next] < time) ++next;
+  const double a = file.times[next - 1], b = file.times[next];
+  return double(next - 1) + std::clamp((time - a) / (b - a), 0.0, 1.0);
+}
+
+void movie(const GlbFile& file, const LeafScene& leaf, PictureOptions picture, const Request& request,
+           const Monitor& monitor) {
+  if (file.times.size() < 2)
+    throw Error(ErrorCode::input,
+                fmt::format("'{}' does not move; a film needs two frames or more", request.file));
+  MovieWriter writer(request.output, picture.width, picture.height, request.fps);
+  picture.camera = camera_for(leaf, evenly(leaf.frames(), leaf.frames() - 1), picture);
+  const int count = 1 + static_cast<int>(std::lround(file.times.back() * request.fps));
+  for (int i = 0; i < count; ++i)
+    writer.add(render(leaf.at(frame_at(file, double(i) / request.fps)), picture, part_of(monitor, i, count)));
+  writer.finish();
+}
+
+void run(const Request& request, const GlobalOptions& options) {
+  const Kind kind = kind_of(request);
+  PictureOptions picture = picture_options(request, kind);
+  picture.validate();
+  check_writable(request.output);
+  const ThreadLimit limit(request.threads);
+  Terminal terminal(options);
+  catch_interrupts();
+  const GlbFile file = read_glb(request.file);
+  const LeafScene leaf(file);
+  if (kind == Kind::movie) {
+    movie(file, leaf, picture, request, terminal.monitor());
+  } else if (kind == Kind::sheet) {
+    write_image(request.output, sheet(leaf, picture, request, terminal.monitor()));
+  } else {
+    const int frame = request.frame.value_or(leaf.frames() - 1);
+    if (frame < 0 || frame >= leaf.frames())
+      throw Error(ErrorCode::configuration, fmt::format("--frame is {}; '{}' has the frames 0 to {}", frame,
+                                                        request.file, leaf.frames() - 1));
+    write_image(request.output, render(leaf.at(frame), picture, terminal.monitor()));
+  }
+  terminal.say("wrote " + request.output);
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, const GlobalOptions& options) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* verb = app.add_subcommand("render",
+                                      "Pictures, contact sheets and films of a result\n\n"
+                                      "Examples:\n"
+                                      "  wilt render maple.glb -o maple.png\n"
+                                      "  wilt render maple.glb -o poster.png --size 1920x1080 --sun 100,25\n"
+                                      "  wilt render maple.glb -o sheet.png --columns 6 --frames 12\n"
+                                      "  wilt render maple.glb -o maple.mp4\n"
+                                      "  wilt render maple.glb -o top.png --view -90,90 --frame 0\n");
+  verb->add_option("FILE", request->file, "A .glb that wilt wrote")->required()->type_name("");
+  verb->add_option(
+          "-o,--output", request->output,
+          "Picture (.png .jpg), contact sheet (its name ends in sheet.png, or --columns\nor --frames is "
+          "given), film "
+          "(.mp4 .webm .gif)")
+      ->required()
+      ->type_name("FILE");
+  verb->add_option("--frame", request->frame, "Frame of the picture, from 0 (the last)")->type_name("N");
+  verb->add_option("--size", request->size,
+                   "Of a picture (960x720), of each in a sheet (480x360), of a film (640x480)")
+      ->type_name("WxH");
+  verb->add_option("--samples", request->samples, "Per pixel at most (256; sheet and film 64)")
+      ->check(CLI::Range(1, 65536))
+      ->type_name("N");
+  verb->add_option("--columns", request->columns, "Of a sheet (4)")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
+  verb->add_option("--frames", request->frames, "Pictures in a sheet (12, or all when fewer)")
+      ->check(CLI::Range(1, 100000))
+      ->type_name("N");
+  verb->add_option("--fps", request->fps, "Pictures a second of a film (25)")
+      ->check(CLI::Range(1, 120))
+      ->type_name("N");
+  verb->add_option("--view", request->view,
+                   "Camera, degrees: around (-90 looks to the apex) and above (-75,45)")
+      ->type_name("A,E");
+  verb->add_option("--sun", request->sun, "Sun, degrees: around and above (146,38)")->type_name("A,E");
+  verb->add_option("--seed", request->seed, "Of the samples (1)")->type_name("N");
+  verb->add_option("--threads", request->threads, "At most so many (all)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  verb->callback([request, &options] { run(*request, options); });
+}
+
+}  // namespace wilt::cli

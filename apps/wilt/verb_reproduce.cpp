@@ -1,0 +1,83 @@
+// wilt reproduce: the figures and tables of the paper anew, with a verdict on each claim.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <memory>
+
+#include "verbs.hpp"
+#include "wilt/core/error.hpp"
+#include "wilt/core/parallel.hpp"
+#include "wilt/reproduce/reproduce.hpp"
+
+namespace wilt::cli {
+namespace {
+
+struct Request {
+  std::vector<std::string> figures;
+  std::string folder = "reproduction", size;
+  ReproduceOptions options;
+  int threads = 0;
+};
+
+void parse_size(const std::string& text, PictureSettings& pictures) {
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, pictures.width);
+  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
+    const auto height = std::from_chars(width.ptr + 1, end, pictures.height);
+    if (height.ec == std::errc() && height.ptr == end) return;
+  }
+  throw Error(ErrorCode::configuration,
+              fmt::format("--size takes pixels as WxH, for example 480x360, not '{}'", text));
+}
+
+void run(Request& request, const GlobalOptions& options) {
+  const std::vector<std::string> figures = chosen_figures(request.figures);
+  if (!request.size.empty()) parse_size(request.size, request.options.pictures);
+  const ThreadLimit limit(request.threads);
+  Terminal terminal(options);
+  catch_interrupts();
+  const std::vector<Claim> claims = reproduce(figures, request.folder, request.options, terminal.monitor());
+  if (options.json) {
+    fmt::print("{}", claims_json(claims));
+    return;
+  }
+  for (const char* model : {"paper", "cell"}) {
+    int holds = 0, all = 0;
+    for (const Claim& claim : claims) {
+      if (claim.model != model || verdict(claim) == Verdict::not_run) continue;
+      ++all;
+      holds += verdict(claim) == Verdict::comes_out ? 1 : 0;
+    }
+    terminal.say(fmt::format("{}: {} of {} claims come out", model, holds, all));
+  }
+  terminal.say(fmt::format("open {}/index.html", request.folder));
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& app, const GlobalOptions& options) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* verb =
+      app.add_subcommand("reproduce",
+                         "The figures and tables of the paper anew, with a verdict on each claim\n\n"
+                         "Examples:\n"
+                         "  wilt reproduce -o report                all of it: open report/index.html\n"
+                         "  wilt reproduce fig10 table1 -o report   only these\n"
+                         "  wilt reproduce fig7 -o report --size 960x720 --samples 64\n");
+  verb->add_option("FIGURE", request->figures,
+                   fmt::format("Any of all (default), {}", fmt::join(figure_names(), ", ")));
+  verb->add_option("-o,--output", request->folder, "Folder to write to (reproduction)")->type_name("DIR");
+  verb->add_option("--size", request->size, "Pixels of a picture (480x360); the many small ones have half")
+      ->type_name("WxH");
+  verb->add_option("--samples", request->options.pictures.samples, "Samples per pixel (16)")->type_name("N");
+  verb->add_option("--vertices", request->options.vertices, "Vertices of every leaf (2000)")->type_name("N");
+  verb->add_option("--seed", request->options.pictures.seed, "Varies the individual leaves (1)")
+      ->type_name("N");
+  verb->add_option("--threads", request->threads, "Threads at most (all); results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024));
+  verb->callback([request, &options] { run(*request, options); });
+}
+
+}  // namespace wilt::cli

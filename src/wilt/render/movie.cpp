@@ -1,0 +1,148 @@
+#include "wilt/render/movie.hpp"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <boost/process.hpp>
+#include <csignal>
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "wilt/core/error.hpp"
+#include "wilt/output/file.hpp"
+
+namespace wilt {
+namespace {
+
+namespace process = boost::process;
+
+// What ffmpeg is told to make of each kind of film.
+const std::map<std::string, std::vector<std::string>>& codecs() {
+  static const std::map<std::string, std::vector<std::string>> kCodecs = {
+      {".mp4",
+       {"-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p", "-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2",
+        "-movflags", "+faststart"}},
+      {".webm",
+       {"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-pix_fmt", "yuv420p", "-vf",
+        "crop=trunc(iw/2)*2:trunc(ih/2)*2"}},
+      {".gif", {"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse"}},
+  };
+  return kCodecs;
+}
+
+std::string extension_of(const std::string& path) {
+  return std::filesystem::path(path).extension().string();
+}
+
+/// A folder of its own that goes away with it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "wilt-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+      throw Error(ErrorCode::output,
+                  fmt::format("cannot create a temporary folder in '{}'; set TMPDIR to a folder with space",
+                              std::filesystem::temp_directory_path().string()));
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace
+
+class MovieWriter::Encoder {
+ public:
+  Encoder(const std::string& path, int width, int height, int fps) : path_(path) {
+    const auto program = process::search_path("ffmpeg");
+    if (program.empty())
+      throw Error(
+          ErrorCode::output,
+          "a film needs the program ffmpeg, which is not there; install it (Debian: apt-get install ffmpeg), "
+          "or write a sheet.png");
+    file_ = (folder_.path() / ("film" + extension_of(path))).string();
+    std::vector<std::string> arguments = {"-v",       "error",
+                                          "-f",       "rawvideo",
+                                          "-pix_fmt", "rgb24",
+                                          "-s",       fmt::format("{}x{}", width, height),
+                                          "-r",       std::to_string(fps),
+                                          "-i",       "-"};
+    const auto& codec = codecs().at(extension_of(path));
+    arguments.insert(arguments.end(), codec.begin(), codec.end());
+    arguments.insert(arguments.end(),
+                     {"-fflags", "+bitexact", "-flags:v", "+bitexact", "-threads", "2", file_});
+    previous_ = std::signal(SIGPIPE, SIG_IGN);  // a program that stopped is told by the stream
+    child_ = process::child(program, process::args(arguments),
+                            process::std_in<pictures_, process::std_err> errors_);
+  }
+
+  ~Encoder() {
+    pictures_.pipe().close();
+    std::error_code ignored;
+    if (child_.running(ignored)) child_.terminate(ignored);
+    child_.wait(ignored);
+    std::signal(SIGPIPE, previous_);
+  }
+
+  void add(const Image& picture) {
+    if (!pictures_.write(reinterpret_cast<const char*>(picture.rgb.data()),
+                         std::streamsize(picture.rgb.size())))
+      fail();
+  }
+
+  void finish() {
+    pictures_.flush();
+    pictures_.pipe().close();
+    child_.wait();
+    if (child_.exit_code() != 0) fail();
+    write_file(path_, read_file(file_));
+  }
+
+ private:
+  [[noreturn]] void fail() {
+    std::string reason;
+    std::getline(errors_, reason);
+    throw Error(ErrorCode::output, fmt::format("'{}': ffmpeg could not make the film{}{}", path_,
+                                               reason.empty() ? "" : ": ", reason));
+  }
+
+  std::string path_, file_;
+  TemporaryFolder folder_;
+  process::opstream pictures_;
+  process::ipstream errors_;
+  process::child child_;
+  void (*previous_)(int) = SIG_DFL;
+};
+
+MovieWriter::MovieWriter(const std::string& path, int width, int height, int fps) {
+  if (!is_movie(path))
+    throw Error(ErrorCode::configuration, fmt::format("'{}': a film is .mp4, .webm or .gif", path));
+  if (fps < 1 || fps > 120)
+    throw Error(ErrorCode::configuration, fmt::format("fps is {}; allowed: 1 to 120 pictures a second", fps));
+  encoder_ = std::make_unique<Encoder>(path, width, height, fps);
+}
+
+MovieWriter::~MovieWriter() = default;
+
+void MovieWriter::add(const Image& picture) {
+  encoder_->add(picture);
+}
+
+void MovieWriter::finish() {
+  encoder_->finish();
+}
+
+bool MovieWriter::is_movie(const std::string& path) {
+  return codecs().count(extension_of(path)) > 0;
+}
+
+}  // namespace wilt
