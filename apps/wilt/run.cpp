@@ -6,6 +6,7 @@
 
 #include "wilt/core/error.hpp"
 #include "wilt/output/gltf.hpp"
+#include "wilt/output/image_codec.hpp"
 #include "wilt/output/obj.hpp"
 #include "wilt/render/leaf_scene.hpp"
 #include "wilt/render/picture.hpp"
@@ -53,11 +54,12 @@ WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& 
 
 void check_result_path(const std::string& path) {
   const std::string extension = lower_extension(path);
-  if (extension != ".glb" && extension != ".obj" && extension != ".png")
-    throw Error(ErrorCode::configuration,
-                fmt::format("cannot write '{}': results are .glb (all frames), .obj (the last frame) or .png "
-                            "(a picture of it)",
-                            path));
+  if (extension != ".glb" && extension != ".obj" && !is_picture_path(path))
+    throw Error(
+        ErrorCode::configuration,
+        fmt::format("cannot write '{}': results are .glb (all frames), .obj (the last frame) or .png, "
+                    ".jpg (a picture of it)",
+                    path));
   check_writable(path);
 }
 
@@ -80,7 +82,7 @@ void write_result(const std::string& path, const WitheredLeaf& withered, Termina
   } else {
     const GlbFile file = result_file(withered);
     const int last = static_cast<int>(file.times.size()) - 1;
-    write_png(path, picture_of(file, last, kPictureWidth, kPictureHeight, terminal));
+    write_image(path, picture_of(file, last, kPictureWidth, kPictureHeight, terminal));
   }
 }
 

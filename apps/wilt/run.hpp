@@ -7,9 +7,9 @@
 
 #include "load_leaf.hpp"
 #include "terminal.hpp"
+#include "wilt/core/image.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/output/report.hpp"
-#include "wilt/render/image.hpp"
 #include "wilt/simulation/config.hpp"
 #include "wilt/simulation/result.hpp"
 

@@ -10,6 +10,8 @@
 #include "wilt/core/error.hpp"
 #include "wilt/leaf/species.hpp"
 #include "wilt/output/file.hpp"
+#include "wilt/output/image_codec.hpp"
+#include "wilt/render/contact_sheet.hpp"
 
 namespace wilt::cli {
 namespace {
@@ -52,8 +54,8 @@ void run(const std::string& folder_name, const GlobalOptions& options) {
   write_file(report, report_of(withered));
   const GlbFile file = result_file(withered);
   const int last = static_cast<int>(file.times.size()) - 1;
-  write_png(picture, picture_of(file, last, kPictureWidth, kPictureHeight, terminal));
-  write_png(sheet, stages(file, terminal));
+  write_image(picture, picture_of(file, last, kPictureWidth, kPictureHeight, terminal));
+  write_image(sheet, stages(file, terminal));
   fmt::print(
       "A maple leaf has withered.\n"
       "  {:<34} plays in Blender (File > Import > glTF) and three.js\n"

@@ -15,7 +15,8 @@
 #include "wilt/mesh/geometry.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/output/obj.hpp"
-#include "wilt/simulation/colour.hpp"
+#include "wilt/simulation/config.hpp"
+#include "wilt/venation/venation.hpp"
 
 namespace wilt::cli {
 namespace {
@@ -25,14 +26,14 @@ struct Request {
   std::string output;
 };
 
-void write_leaf(const std::string& path, const Leaf& leaf) {
+// A GLB carries the fresh texture, whose veins have to be found.
+void write_leaf(const std::string& path, const Leaf& leaf, const Monitor& monitor) {
   const std::vector<Frame> frames = rest_frames(leaf);
   if (std::filesystem::path(path).extension() == ".obj") return write_obj(path, leaf, frames.front());
-  const LeafColours& colours = species(leaf.species).colours;
-  GlbScene scene{leaf, frames};
-  scene.colours.push_back(Points3::Ones(leaf.positions.rows(), 3) * linear_rgb(colours.fresh).asDiagonal());
-  scene.stalk_colours.push_back(linear_rgb(colours.stalk));
-  write_glb(path, scene);
+  const Config config = default_config(species(leaf.species));
+  const Venation venation =
+      find_venation(leaf, species(leaf.species).secondary, venation_options(config), monitor);
+  write_glb(path, glb_scene(leaf, venation, config, frames));
 }
 
 void run(const Request& request, const GlobalOptions& options) {
@@ -50,7 +51,7 @@ void run(const Request& request, const GlobalOptions& options) {
   terminal.say(fmt::format("{}: {} vertices, {} faces, {:.0f} mm, smallest angle {:.0f} degrees", leaf.name,
                            leaf.mesh.num_vertices(), leaf.mesh.num_faces(), 1e3 * leaf_length(leaf), angle));
   if (!request.output.empty()) {
-    write_leaf(request.output, leaf);
+    write_leaf(request.output, leaf, terminal.monitor());
     terminal.say("wrote " + request.output);
   }
   if (!options.json) return;

@@ -14,6 +14,8 @@
 #include "wilt/core/error.hpp"
 #include "wilt/core/parallel.hpp"
 #include "wilt/output/gltf.hpp"
+#include "wilt/output/image_codec.hpp"
+#include "wilt/render/contact_sheet.hpp"
 #include "wilt/render/leaf_scene.hpp"
 #include "wilt/render/movie.hpp"
 #include "wilt/render/picture.hpp"
@@ -36,10 +38,11 @@ enum class Kind { picture, sheet, movie };
 Kind kind_of(const Request& request) {
   if (MovieWriter::is_movie(request.output)) return Kind::movie;
   const std::filesystem::path path(request.output);
-  if (path.extension() != ".png")
-    throw Error(ErrorCode::configuration,
-                fmt::format("cannot write '{}': a picture or sheet is .png, a film .mp4, .webm or .gif",
-                            request.output));
+  if (!is_picture_path(request.output))
+    throw Error(
+        ErrorCode::configuration,
+        fmt::format("cannot write '{}': a picture or sheet is .png or .jpg, a film .mp4, .webm or .gif",
+                    request.output));
   const std::string stem = path.stem().string();
   const bool named = stem.size() >= 5 && stem.compare(stem.size() - 5, 5, "sheet") == 0;
   if (request.frame) return Kind::picture;
@@ -164,13 +167,13 @@ void run(const Request& request, const GlobalOptions& options) {
   if (kind == Kind::movie) {
     movie(file, leaf, picture, request, terminal.monitor());
   } else if (kind == Kind::sheet) {
-    write_png(request.output, sheet(leaf, picture, request, terminal.monitor()));
+    write_image(request.output, sheet(leaf, picture, request, terminal.monitor()));
   } else {
     const int frame = request.frame.value_or(leaf.frames() - 1);
     if (frame < 0 || frame >= leaf.frames())
       throw Error(ErrorCode::configuration, fmt::format("--frame is {}; '{}' has the frames 0 to {}", frame,
                                                         request.file, leaf.frames() - 1));
-    write_png(request.output, render(leaf.at(frame), picture, terminal.monitor()));
+    write_image(request.output, render(leaf.at(frame), picture, terminal.monitor()));
   }
   terminal.say("wrote " + request.output);
 }
@@ -188,10 +191,11 @@ void add_render(CLI::App& app, const GlobalOptions& options) {
                                       "  wilt render maple.glb -o maple.mp4\n"
                                       "  wilt render maple.glb -o top.png --view -90,90 --frame 0\n");
   verb->add_option("FILE", request->file, "A .glb that wilt wrote")->required()->type_name("");
-  verb->add_option("-o,--output", request->output,
-                   "Picture (.png), contact sheet (its name ends in sheet.png, or --columns\nor --frames is "
-                   "given), film "
-                   "(.mp4 .webm .gif)")
+  verb->add_option(
+          "-o,--output", request->output,
+          "Picture (.png .jpg), contact sheet (its name ends in sheet.png, or --columns\nor --frames is "
+          "given), film "
+          "(.mp4 .webm .gif)")
       ->required()
       ->type_name("FILE");
   verb->add_option("--frame", request->frame, "Frame of the picture, from 0 (the last)")->type_name("N");

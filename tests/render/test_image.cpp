@@ -1,24 +1,13 @@
-// Bytes: tone curve, PNG, contact sheets.
+// Bytes: tone curve, contact sheets.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "wilt/core/error.hpp"
 #include "wilt/core/random.hpp"
-#include "wilt/render/image.hpp"
+#include "wilt/render/contact_sheet.hpp"
 #include "wilt/render/picture.hpp"
 #include "wilt/render/tone.hpp"
-
-#define STB_IMAGE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_PNG
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#pragma GCC diagnostic ignored "-Wsign-compare"
-#include <stb/stb_image.h>
-#pragma GCC diagnostic pop
 
 namespace wilt {
 namespace {
@@ -58,37 +47,6 @@ TEST(Tone, RadianceOfAColourDevelopsToIt) {
     one.rgb /= 2.0;
     EXPECT_EQ(int(develop(one, 2.0).rgb[1]), level);
   }
-}
-
-// Differential: stb's decoder.
-TEST(Png, DecodesToTheSamePixels) {
-  const Image image = noise_image(37, 21, 3);
-  const std::vector<std::uint8_t> bytes = encode_png(image);
-  int width = 0, height = 0, channels = 0;
-  stbi_uc* pixels = stbi_load_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels, 0);
-  ASSERT_NE(pixels, nullptr);
-  EXPECT_EQ(width, 37);
-  EXPECT_EQ(height, 21);
-  ASSERT_EQ(channels, 3);
-  EXPECT_EQ(std::vector<std::uint8_t>(pixels, pixels + 3 * 37 * 21), image.rgb);
-  stbi_image_free(pixels);
-}
-
-TEST(Png, IsWrittenWholeOrNotAtAll) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "wilt_render_png";
-  std::filesystem::create_directories(folder);
-  const Image image = noise_image(8, 5, 4);
-  write_png(folder / "a.png", image);
-  EXPECT_EQ(std::filesystem::file_size(folder / "a.png"), encode_png(image).size());
-  try {
-    write_png(folder / "missing" / "a.png", image);
-    ADD_FAILURE() << "nothing was thrown";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::output);
-  }
-  EXPECT_THROW(encode_png(Image{}), Error);
-  EXPECT_THROW(encode_png(Image{4, 4, std::vector<std::uint8_t>(3)}), Error);
-  std::filesystem::remove_all(folder);
 }
 
 // Analytic: every pixel of every picture is where rows and columns say; the rest is background.

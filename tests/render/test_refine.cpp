@@ -70,8 +70,7 @@ TEST(Refine, RoundsASmoothMarginAndKeepsCorners) {
     refine(surface, 1);
     double error = 0.0;
     const auto loops = margin_loops(surface.positions, surface.faces);
-    for (const int v : loops.at(0))
-      error = std::max(error, std::abs(surface.positions.row(v).norm() - 1.0));
+    for (const int v : loops.at(0)) error = std::max(error, std::abs(surface.positions.row(v).norm() - 1.0));
     if (last > 0.0) {
       EXPECT_NEAR(last / error, 16.0, 4.0);
     }

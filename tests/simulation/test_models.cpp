@@ -8,6 +8,7 @@
 #include "wilt/leaf/species.hpp"
 #include "wilt/mesh/geometry.hpp"
 #include "wilt/simulation/deformation_model.hpp"
+#include "wilt/simulation/drying_fields.hpp"
 #include "wilt/simulation/simulate.hpp"
 
 namespace wilt {
@@ -167,6 +168,44 @@ TEST(CellModel, HardlyDependsOnTheResolution) {
   }
   EXPECT_NEAR(curls[0], curls[2], 0.25 * curls[2]);  // band: what buckling into another shape may change
   EXPECT_NEAR(curls[1], curls[2], 0.25 * curls[2]);
+}
+
+// Oracle: the sign of the curvature, against the same leaf without any; nothing else bends it.
+TEST(CellModel, RollsTheMarginTheWayItsCurvaturePoints) {
+  Case c = make_case("poplar", "cell", 600);
+  c.config.iterations = 100;
+  c.config.external.scale = c.config.gravity.strength = c.config.swelling.coefficient = 0.0;
+  c.config.curvature.tip = c.config.curvature.panel = 0.0;
+  const auto margin_height = [&](double roll) {
+    c.config.curvature.roll = roll;
+    const Points3 x = run(c).frames.back().positions;
+    const std::vector<VertexId>& rim = margin_loop(c.leaf.mesh, c.leaf.positions);
+    double sum = 0.0;
+    for (const VertexId v : rim) sum += x(v, 2);
+    return sum / static_cast<double>(rim.size()) / leaf_length(c.leaf);
+  };
+  const double flat = margin_height(0.0);
+  EXPECT_GT(margin_height(60.0), flat + 0.01);
+  EXPECT_LT(margin_height(-60.0), flat - 0.01);
+}
+
+// Oracle: mesh refinement; the mean of the fields over the blade belongs to the leaf, not to its mesh. Band:
+// tensors are means over the faces around a vertex, which blur them by an edge.
+TEST(DryingFields, BelongToTheLeafAndNotToItsMesh) {
+  const auto means = [](int vertices) {
+    const Case c = make_case("tilia", "cell", vertices);
+    const double scale = kWorkingLength / leaf_length(c.leaf);
+    const DryingFields fields =
+        drying_fields({c.leaf, c.venation, c.config, scale, scale * c.leaf.positions});
+    const VertexData<double> areas = vertex_areas(c.leaf.mesh, c.leaf.positions);
+    Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+    for (const VertexId v : c.leaf.mesh.vertices())
+      sum += areas[v] *
+             Eigen::Vector4d(1.0, fields.curvature[v].norm(), fields.grain[v].norm(), fields.folds[v].norm());
+    return Eigen::Vector3d(sum.tail<3>() / sum[0]);
+  };
+  const Eigen::Vector3d coarse = means(1000), fine = means(4000);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(coarse[k], fine[k], 0.05 * fine[k]) << k;
 }
 
 // Oracle: without gravity's loss of turgor the stalk stays as drawn; with it the blade's far end sinks.

@@ -162,19 +162,30 @@ Physiology read_physiology(Section section) {
   physiology.force_range = section.number("force_range", 0.01, 100.0);
   physiology.dryness_scale = section.number("dryness_scale", 0.01, 1.0);
   physiology.shrinkage = section.number("shrinkage", 0.0, 10.0);
+  physiology.roll = section.number("roll", -200.0, 200.0);
   section.expect_all_used();
   return physiology;
 }
 
-LeafColours read_colours(Section section) {
-  LeafColours colours;
-  colours.fresh = section.colour("fresh");
-  colours.turning = section.colour("turning");
-  colours.dry = section.colour("dry");
-  colours.vein = section.colour("vein");
-  colours.stalk = section.colour("stalk");
+Pigmentation read_pigments(Section section) {
+  Pigmentation pigments;
+  pigments.chlorophyll = section.number("chlorophyll", 0.0, 120.0);
+  pigments.chlorophyll_left = section.number("chlorophyll_left", 0.0, 1.0);
+  pigments.carotenoids = section.number("carotenoids", 0.0, 30.0);
+  pigments.carotenoids_left = section.number("carotenoids_left", 0.0, 1.0);
+  pigments.anthocyanin = section.number("anthocyanin", 0.0, 60.0);
+  pigments.brown = section.number("brown", 0.0, 2.0);
+  pigments.structure = section.number("structure", 1.0, 4.0);
+  pigments.structure_dry = section.number("structure_dry", pigments.structure, 4.0);
+  pigments.water = section.number("water", 0.0, 0.1);
+  pigments.dry_matter = section.number("dry_matter", 0.0, 0.05);
+  pigments.vein_pigment = section.number("vein_pigment", 0.0, 1.0);
+  pigments.vein_brown = section.number("vein_brown", 0.0, 2.0);
+  pigments.margin_lead = section.number("margin_lead", 0.0, 1.0);
+  pigments.patchiness = section.number("patchiness", 0.0, 0.5);
+  pigments.stalk = section.colour("stalk");
   section.expect_all_used();
-  return colours;
+  return pigments;
 }
 
 std::vector<Preset> parse_all() {
@@ -204,7 +215,7 @@ Preset parse_preset(const PresetText& source) {
   preset.species.stalk_radius = root.number("stalk_radius", 1e-4, 0.1);
   preset.species.secondary = read_secondary(root.section("secondary"));
   preset.species.physiology = read_physiology(root.section("physiology"));
-  preset.species.colours = read_colours(root.section("colours"));
+  preset.species.pigments = read_pigments(root.section("pigments"));
   if (root.has("outline")) preset.outline = read_outline(file, root.section("outline"));
   root.expect_all_used();
   return preset;

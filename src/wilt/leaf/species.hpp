@@ -1,4 +1,4 @@
-// The six species that wilt knows: shape, physiology, veins and colours, read from presets/*.toml.
+// The six species that wilt knows: shape, physiology, veins and pigments, read from presets/*.toml.
 #pragma once
 
 #include <array>
@@ -30,15 +30,28 @@ struct Physiology {
   double force_range = 1.0;        ///< K_r, per working length unit
   double dryness_scale = 0.3;      ///< d: dryness = (w_0 - w) / (d w_0); a calibration
   double shrinkage = 1.0;          ///< s of the differential strain
+  double roll = 60.0;              ///< curvature of the dry margin, 1 / leaf length; > 0 rolls up
 };
 
-/// 8-bit sRGB colours of the blade, for pictures.
-struct LeafColours {
-  std::array<int, 3> fresh{72, 100, 51};
-  std::array<int, 3> turning{190, 147, 44};
-  std::array<int, 3> dry{151, 127, 92};
-  std::array<int, 3> vein{150, 160, 95};
-  std::array<int, 3> stalk{120, 110, 60};
+/// What the blade's tissue holds, fresh and dead (leaf_optics.hpp has the units), and how it gets there
+/// (simulation/senescence.hpp). Amounts are of the order that is measured in such leaves, chosen so that the
+/// colours look like photographs of the species; a calibration.
+struct Pigmentation {
+  double chlorophyll = 40.0;       ///< fresh, ug/cm2
+  double chlorophyll_left = 0.02;  ///< share of it that a dead leaf keeps, 0 to 1
+  double carotenoids = 8.0;        ///< fresh, ug/cm2
+  double carotenoids_left = 0.25;  ///< share of them that a dead leaf keeps, 0 to 1
+  double anthocyanin = 0.0;        ///< made while the green goes, where the leaf reddens most, ug/cm2
+  double brown = 1.0;              ///< brown pigment of dead tissue
+  double structure = 1.5;          ///< N, fresh
+  double structure_dry = 2.2;      ///< N, dead: air where water was
+  double water = 0.012;            ///< fresh, cm
+  double dry_matter = 0.006;       ///< g/cm2
+  double vein_pigment = 0.4;       ///< chlorophyll of a main vein over the blade's, 0 to 1
+  double vein_brown = 0.6;         ///< brown pigment of a dead main vein over the blade's, 0 to 2
+  double margin_lead = 0.35;  ///< how far the margin goes ahead of the main veins, of the dryness, 0 to 1
+  double patchiness = 0.12;   ///< scatter of patches in the same unit, 0 to 0.5
+  std::array<int, 3> stalk{120, 110, 60};  ///< 8-bit sRGB
 };
 
 struct Species {
@@ -50,7 +63,7 @@ struct Species {
   double stalk_radius = 0.01;  ///< in units of the leaf's length
   SecondaryVeinRule secondary;
   Physiology physiology;
-  LeafColours colours;
+  Pigmentation pigments;
 };
 
 /// maple, poplar, tilia, ivy, willow, grape: in the order of the paper's Table 1.

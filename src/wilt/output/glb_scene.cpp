@@ -1,18 +1,56 @@
+#include <algorithm>
+
+#include "wilt/core/srgb.hpp"
 #include "wilt/leaf/species.hpp"
 #include "wilt/output/gltf.hpp"
-#include "wilt/simulation/colour.hpp"
+#include "wilt/output/image_codec.hpp"
+#include "wilt/simulation/leaf_relief.hpp"
+#include "wilt/simulation/leaf_texture.hpp"
+#include "wilt/simulation/senescence.hpp"
 
 namespace wilt {
+namespace {
+
+constexpr double kStalkDries = 0.7;  // share of dead tissue's colour in the stalk of a dry leaf
+constexpr double kStalkShade = 0.6;  // and that darker than the blade's
+constexpr double kDarkest = 0.004;  // colours that are divided by are kept above it
+
+// What the texture is brighter than the last frame by, so that no earlier frame asks for a vertex colour
+// above 1; limited by the brightest place of the last frame, which the texture must hold.
+Vec3 texture_gain(const std::vector<Points3>& colours) {
+  const Points3 last = colours.back().cwiseMax(kDarkest);
+  Vec3 gain = Vec3::Ones();
+  for (const Points3& frame : colours)
+    gain = gain.cwiseMax(frame.cwiseQuotient(last).colwise().maxCoeff().transpose());
+  const Vec3 room = 0.9 * last.colwise().maxCoeff().transpose().cwiseInverse();
+  return gain.cwiseMin(room).cwiseMax(1.0);
+}
+
+}  // namespace
 
 GlbScene glb_scene(const Leaf& leaf, const Venation& venation, const Config& config,
                    const std::vector<Frame>& frames) {
-  const LeafColours& colours = species(config.species).colours;
+  const Pigmentation& pigments = species(config.species).pigments;
   GlbScene scene{leaf, frames};
   scene.venation = &venation;
   scene.config = to_json(config);
-  for (const Frame& frame : frames)
-    scene.colours.push_back(leaf_colours(leaf, venation, colours, frame.dryness));
-  scene.stalk_colours.push_back(linear_rgb(colours.stalk));
+  const TissueColours tissue(pigments);
+  const SenescencePattern pattern = senescence_pattern(leaf, venation, pigments);
+  const Vec3 dead = tissue({1.0, 0.0, 0.0});
+  for (const Frame& frame : frames) {
+    scene.colours.push_back(leaf_colours(pattern, tissue, frame.dryness));
+    const double dry = kStalkDries * frame.dryness.mean();
+    scene.stalk_colours.push_back((1.0 - dry) * linear_rgb(pigments.stalk) + dry * kStalkShade * dead);
+  }
+  const Vec3 gain = texture_gain(scene.colours);
+  const auto size = static_cast<int>(config.texture.size);
+  const Eigen::VectorXd& dryness = frames.back().dryness;
+  const Image texture = leaf_texture(leaf, venation, pattern, tissue, dryness, gain, size);
+  if (texture.empty()) return scene;
+  scene.texture = encode_jpeg(texture);
+  scene.normal_texture = encode_jpeg(leaf_relief(leaf, venation, dryness, size));
+  const Points3 shown = scene.colours.back().cwiseMax(kDarkest) * gain.asDiagonal();
+  for (Points3& frame : scene.colours) frame = frame.cwiseMax(kDarkest).cwiseQuotient(shown).cwiseMin(1.0);
   return scene;
 }
 

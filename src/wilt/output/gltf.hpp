@@ -15,18 +15,24 @@ namespace wilt {
 /// What goes into a GLB. Only refers to `leaf`, `frames` and `venation`: they must outlive it.
 struct GlbScene {
   const Leaf& leaf;
-  const std::vector<Frame>& frames;    ///< >= 1, iterations ascending; the first is the base of the targets
+  const std::vector<Frame>& frames;    ///< >= 1, iterations ascending; the first is at rest
   const Venation* venation = nullptr;  ///< its veins go into asset.extras, at rest
   std::string config = "{}";           ///< JSON text of the resolved configuration
-  /// Linear RGB, 0 to 1 (clipped), #V x 3 of the blade: none (white), one (shown throughout: the final
-  /// state), or one per frame (colour morphs).
+  /// Linear RGB, 0 to 1 (clipped), #V x 3 of the blade, which multiplies the texture: none (white), one
+  /// (shown throughout: the final state), or one per frame (colour morphs).
   std::vector<Points3> colours{};
   std::vector<Vec3> stalk_colours{};  ///< linear RGB, of the whole stalk: none, one, or one per frame
   std::string texture{};              ///< bytes of a PNG or JPEG that multiplies the colours; empty: white
+  std::string normal_texture{};       ///< the same of a tangent-space normal map of the blade; empty: none
 };
 
 /// The scene of a run: its frames with the colours of their states, veins and configuration. Refers to
-/// `leaf`, `venation` and `frames`.
+/// `leaf`, `venation` and `frames`, which must have a dryness.
+///
+/// With C_k the blade's colours at frame k (senescence.hpp), the texture holds the last frame's colour times
+/// m >= 1 per channel, with its fine detail, and COLOR_0 of frame k is C_k / (C_last m): texture x COLOR_0 is
+/// the colour of that frame, and COLOR_0 of the last one is 1 / m throughout. Without a texture
+/// (`texture.size` 0, or texture coordinates that cannot carry one) COLOR_0 is C_k.
 GlbScene glb_scene(const Leaf& leaf, const Venation& venation, const Config& config,
                    const std::vector<Frame>& frames);
 
@@ -36,19 +42,21 @@ struct GlbOptions {
   void validate() const;  ///< throws Error{configuration}
 };
 
-/// The leaf alone, as the one frame of a scene: rest positions and stalk, no water.
+/// The leaf alone, as the one frame of a scene: rest positions and stalk, fresh (dryness 0), no water.
 std::vector<Frame> rest_frames(const Leaf& leaf);
 
 /// The scene as bytes of a glTF 2.0 binary.
 ///
 /// Nodes "blade" (the leaf's skin: POSITION, NORMAL, TEXCOORD_0, COLOR_0 linear, _WATER = w / m at the last
-/// frame) and "stalk" (a tube, when the leaf has one): #frames - 1 morph targets each (POSITION, NORMAL and,
-/// given colours per frame, COLOR_0) and one animation of their weights, linear between one-hot keys: playing
-/// it is piecewise linear between frames. Coordinates as in coordinates.hpp. asset.extras.wilt: version,
-/// config, leaf, units, metres_per_unit, up, frames (iterations), veins (order, positions, and the face of
-/// the blade and the barycentric coordinates of every point, so that they can follow the blade). The same
-/// scene gives the same bytes. Throws Error{output} above the 4 GB of the format, std::logic_error for wrong
-/// sizes or positions that are not finite. O(#frames #V).
+/// frame) and "stalk" (a tube, when the leaf has one). Of several frames each is a morph target (POSITION,
+/// NORMAL and, given colours per frame, COLOR_0), and there is one animation of their weights, linear between
+/// one-hot keys: playing it is piecewise linear between frames. The base has the shape of the first frame and
+/// the colours of the last one, which readers without colour morphs show; the default weights show the last.
+/// Coordinates as in coordinates.hpp. asset.extras.wilt: version, config, leaf, units, metres_per_unit, up,
+/// frames (iterations), veins (order, positions, and the face of the blade and the barycentric coordinates of
+/// every point, so that they can follow the blade). The same scene gives the same bytes. Throws Error{output}
+/// above the 4 GB of the format, std::logic_error for wrong sizes or positions that are not finite. O(#frames
+/// #V).
 std::string glb_bytes(const GlbScene& scene, const GlbOptions& options = {});
 
 /// The same into a file, by write_file().
@@ -77,9 +85,10 @@ struct GlbFile {
   std::vector<double> times;    ///< seconds, one per frame (one frame: 0)
   std::vector<int> iterations;  ///< one per frame
   std::vector<GlbVein> veins;
-  std::string texture;    ///< bytes of a PNG or JPEG that multiplies the blade's colours
-  std::string generator;  ///< "wilt 0.1.0"
-  std::string extras;     ///< JSON text of asset.extras.wilt
+  std::string texture;         ///< bytes of a PNG or JPEG that multiplies the blade's colours
+  std::string normal_texture;  ///< the same of its normal map, or empty
+  std::string generator;       ///< "wilt 0.1.0"
+  std::string extras;          ///< JSON text of asset.extras.wilt
 };
 
 /// Reads what write_glb() wrote. Throws Error{input}, naming `name` (the path), for anything else.

@@ -79,11 +79,11 @@ int attribute(const std::map<std::string, int>& attributes, const std::string& n
   return found == attributes.end() ? -1 : found->second;
 }
 
-// The base and then base + target for every morph target that has the attribute.
+// Base + target for every morph target; the base alone where there are none that have the attribute.
 std::vector<Points3> morphed(const Model& model, const tinygltf::Primitive& primitive,
                              const std::string& name) {
   const Points3 base = model.floats(attribute(primitive.attributes, name), 3);
-  std::vector<Points3> frames{base};
+  std::vector<Points3> frames;
   for (const auto& target : primitive.targets) {
     const int accessor = attribute(target, name);
     if (accessor < 0) continue;
@@ -91,6 +91,7 @@ std::vector<Points3> morphed(const Model& model, const tinygltf::Primitive& prim
     if (difference.rows() != base.rows()) refuse("a morph target differs in size from its mesh");
     frames.push_back(base + difference);
   }
+  if (frames.empty()) frames.push_back(base);
   return frames;
 }
 
@@ -122,10 +123,12 @@ std::vector<double> read_times(const Model& model, const tinygltf::Model& gltf) 
   return {times.data(), times.data() + times.size()};
 }
 
-std::string read_texture(const tinygltf::Model& gltf) {
-  if (gltf.images.empty()) return {};
+// The bytes of the image behind a texture, or nothing.
+std::string read_texture(const tinygltf::Model& gltf, int texture) {
+  if (texture < 0) return {};
+  const int source = Model::at(gltf.textures, texture, "texture").source;
   const tinygltf::BufferView& view =
-      Model::at(gltf.bufferViews, gltf.images.front().bufferView, "buffer view");
+      Model::at(gltf.bufferViews, Model::at(gltf.images, source, "image").bufferView, "buffer view");
   const std::vector<unsigned char>& data = Model::at(gltf.buffers, view.buffer, "buffer").data;
   if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
     refuse("the texture reaches beyond the file's data");
@@ -187,7 +190,10 @@ GlbFile read_all(std::string_view bytes, std::string_view json) {
   GlbFile file;
   for (const tinygltf::Mesh& mesh : gltf.meshes) file.meshes.push_back(read_mesh(model, mesh));
   if (file.meshes.empty()) refuse("it has no mesh");
-  file.texture = read_texture(gltf);
+  if (!gltf.materials.empty()) {
+    file.texture = read_texture(gltf, gltf.materials[0].pbrMetallicRoughness.baseColorTexture.index);
+    file.normal_texture = read_texture(gltf, gltf.materials[0].normalTexture.index);
+  }
   file.times = read_times(model, gltf);
   read_extras(document, file);
   for (const GlbMesh& mesh : file.meshes) {

@@ -75,9 +75,10 @@ class Builder {
   }
 };
 
-// A viewer adds the difference to the float32 base, so it is taken from that: no error adds up.
+// A viewer adds the difference to the float32 base, so it is taken from that: no error adds up, and the
+// base's own frame differs by nothing.
 Floats difference(const Points3& values, const Floats& base) {
-  return (values - base.cast<double>()).cast<float>();
+  return values.cast<float>() - base;
 }
 
 void add_mesh(Builder& builder, const Moving& moving, const std::vector<Frame>& frames, int material) {
@@ -93,7 +94,7 @@ void add_mesh(Builder& builder, const Moving& moving, const std::vector<Frame>& 
   if (moving.uv.rows() > 0)
     primitive.attributes["TEXCOORD_0"] = builder.add_floats(moving.uv.cast<float>(), kTarget, false);
   if (moving.colour_count > 0) {
-    colours = moving.colours(0).cast<float>();
+    colours = moving.colours(moving.colour_count - 1).cast<float>();
     primitive.attributes["COLOR_0"] = builder.add_floats(colours, kTarget, false);
   }
   if (moving.water.size() > 0)
@@ -101,7 +102,7 @@ void add_mesh(Builder& builder, const Moving& moving, const std::vector<Frame>& 
   primitive.indices = builder.add_indices(moving.faces);
 
   std::vector<tinygltf::Value> names;
-  for (int k = 1; k < static_cast<int>(frames.size()); ++k) {
+  for (int k = 0; frames.size() > 1 && k < static_cast<int>(frames.size()); ++k) {
     const Shape shape = moving.shape(k);
     std::map<std::string, int> target;
     target["POSITION"] = builder.add_floats(difference(shape.positions, positions), kTarget, true);
@@ -114,9 +115,12 @@ void add_mesh(Builder& builder, const Moving& moving, const std::vector<Frame>& 
   tinygltf::Mesh mesh;
   mesh.name = moving.name;
   mesh.primitives = {primitive};
-  // The names of the targets stand where Blender and three.js look for them.
-  if (!names.empty())
+  if (!names.empty()) {
+    mesh.weights.assign(names.size(), 0.0);
+    mesh.weights.back() = 1.0;
+    // The names of the targets stand where Blender and three.js look for them.
     mesh.extras = tinygltf::Value(tinygltf::Value::Object{{"targetNames", tinygltf::Value(names)}});
+  }
   builder.model.meshes.push_back(mesh);
 
   tinygltf::Node node;
@@ -126,16 +130,16 @@ void add_mesh(Builder& builder, const Moving& moving, const std::vector<Frame>& 
   builder.model.scenes.front().nodes.push_back(node.mesh);
 }
 
-// Key frame k shows frame k: the weight of target k - 1 is one there, all others are zero.
+// Key frame k shows frame k: the weight of target k is one there, all others are zero.
 void add_animation(Builder& builder, const std::vector<Frame>& frames, double seconds) {
   const int count = static_cast<int>(frames.size());
   if (count < 2) return;
   const double first = frames.front().iteration, last = frames.back().iteration;
-  Floats times(count, 1), weights = Floats::Zero(count * (count - 1), 1);
+  Floats times(count, 1), weights = Floats::Zero(count * count, 1);
   for (int k = 0; k < count; ++k) {
     times(k) = static_cast<float>(seconds * (frames[static_cast<std::size_t>(k)].iteration - first) /
                                   (last - first));
-    if (k > 0) weights(k * (count - 1) + k - 1) = 1.0F;
+    weights(k * count + k) = 1.0F;
   }
   tinygltf::AnimationSampler sampler;
   sampler.input = builder.add_floats(times, 0, true);
@@ -175,16 +179,25 @@ int add_material(Builder& builder, const std::string& name) {
   return static_cast<int>(builder.model.materials.size()) - 1;
 }
 
-void add_texture(Builder& builder, const std::string& bytes, int material) {
+/// The number of the texture.
+int add_texture(Builder& builder, const std::string& bytes, const char* name) {
   tinygltf::Image image;
-  image.name = "blade";
+  image.name = name;
   image.mimeType = bytes.substr(0, 2) == "\xff\xd8" ? "image/jpeg" : "image/png";
   image.bufferView = builder.add_view(bytes.data(), bytes.size(), 0);
   builder.model.images.push_back(image);
   tinygltf::Texture texture;
-  texture.source = 0;
+  texture.source = static_cast<int>(builder.model.images.size()) - 1;
   builder.model.textures.push_back(texture);
-  builder.model.materials[static_cast<std::size_t>(material)].pbrMetallicRoughness.baseColorTexture.index = 0;
+  return static_cast<int>(builder.model.textures.size()) - 1;
+}
+
+void add_textures(Builder& builder, const GlbScene& scene, int material) {
+  const int colour = add_texture(builder, scene.texture.empty() ? white_pixel() : scene.texture, "colour");
+  tinygltf::Material& blade = builder.model.materials[static_cast<std::size_t>(material)];
+  blade.pbrMetallicRoughness.baseColorTexture.index = colour;
+  if (!scene.normal_texture.empty())
+    blade.normalTexture.index = add_texture(builder, scene.normal_texture, "relief");
 }
 
 // tinygltf writes the model. The extras are put in here, since its values have no 64-bit integers (seeds) and
@@ -234,6 +247,7 @@ std::vector<Frame> rest_frames(const Leaf& leaf) {
   Frame frame;
   frame.positions = leaf.positions;
   frame.stalk = leaf.stalk.centreline;
+  frame.dryness = Eigen::VectorXd::Zero(leaf.positions.rows());
   return {frame};
 }
 
@@ -247,7 +261,7 @@ std::string glb_bytes(const GlbScene& scene, const GlbOptions& options) {
   builder.model.defaultScene = 0;
   const int blade = add_material(builder, "blade");
   add_mesh(builder, moving_blade(scene), scene.frames, blade);
-  add_texture(builder, scene.texture.empty() ? white_pixel() : scene.texture, blade);
+  add_textures(builder, scene, blade);
   if (scene.frames.front().stalk.rows() >= 2)
     add_mesh(builder, moving_stalk(scene, options.stalk_sides), scene.frames, add_material(builder, "stalk"));
   add_animation(builder, scene.frames, options.seconds);

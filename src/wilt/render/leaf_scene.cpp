@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "wilt/core/check.hpp"
+#include "wilt/output/image_codec.hpp"
 #include "wilt/output/tube.hpp"
 #include "wilt/render/refine.hpp"
 #include "wilt/render/resting_pose.hpp"
@@ -13,8 +14,8 @@ namespace {
 
 constexpr int kRefinedFaces = 60000;  // refine while the result has no more
 constexpr int kMaxLevels = 2;
-constexpr double kRimRadius = 0.0016;  // in leaf lengths
-constexpr double kRimShade = 0.72;     // of the blade's colour
+constexpr double kRimRadius = 0.0009;  // in leaf lengths
+constexpr double kRimShade = 0.85;     // of the blade's colour
 constexpr int kRimSides = 5;
 constexpr int kBlendedFrames = 2;  // on either side
 
@@ -94,6 +95,7 @@ LeafScene::LeafScene(const GlbFile& file) : file_(file) {
   const Points3& rest = file.meshes.front().frames.front();
   length_ = (rest.rowwise() - blade_base(file, rest).transpose()).rowwise().norm().maxCoeff();
   if (!file.texture.empty()) colour_map_ = decode_image(file.texture);
+  if (!file.normal_texture.empty()) normal_map_ = decode_image(file.normal_texture);
 }
 
 Surface LeafScene::surface(const GlbMesh& mesh, double frame) const {
@@ -160,7 +162,7 @@ Scene LeafScene::at(double frame) const {
   Surface& blade = scene.surfaces.front();
   blade.leaf = true;
   blade.uv = file_.meshes.front().uv;
-  if (blade.uv.rows() > 0) blade.colour_map = colour_map_;
+  if (blade.uv.rows() > 0) blade.colour_map = colour_map_, blade.normal_map = normal_map_;
   int levels = 0;
   while (levels < kMaxLevels && (blade.faces.rows() << (2 * (levels + 1))) <= kRefinedFaces) ++levels;
   refine(blade, levels);

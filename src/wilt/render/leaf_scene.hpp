@@ -34,7 +34,7 @@ class LeafScene {
   const GlbFile& file_;
   std::vector<Eigen::Quaterniond> turns_;  // from the file's axes to the table's, one per frame
   double length_ = 1.0;                    // of the blade at rest
-  Image colour_map_;
+  Image colour_map_, normal_map_;
 };
 
 /// LeafScene(file).at(frame).

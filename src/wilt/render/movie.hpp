@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "wilt/render/image.hpp"
+#include "wilt/core/image.hpp"
 
 namespace wilt {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "wilt/core/image.hpp"
 #include "wilt/core/monitor.hpp"
 #include "wilt/core/types.hpp"
 #include "wilt/render/camera.hpp"
-#include "wilt/render/image.hpp"
 #include "wilt/render/scene.hpp"
 
 namespace wilt {

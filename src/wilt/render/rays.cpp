@@ -47,9 +47,7 @@ RTCRay embree_ray(const Ray& ray) {
 }  // namespace
 
 World::World(const Scene& scene)
-    : scene_(scene),
-      device_(rtcNewDevice(nullptr), rtcReleaseDevice),
-      surfaces_(nullptr, rtcReleaseScene) {
+    : scene_(scene), device_(rtcNewDevice(nullptr), rtcReleaseDevice), surfaces_(nullptr, rtcReleaseScene) {
   WILT_CHECK(device_ != nullptr, rtcGetDeviceError(nullptr));
   const Points3 points = scene_points(scene_);
   const Vec3 low = points.colwise().minCoeff().transpose(), high = points.colwise().maxCoeff().transpose();

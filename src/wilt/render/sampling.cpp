@@ -34,13 +34,6 @@ std::uint32_t sobol_second(std::uint32_t i) {
 
 }  // namespace
 
-std::uint64_t mix_hash(std::uint64_t hash, std::uint64_t value) {
-  std::uint64_t z = hash + 0x9e3779b97f4a7c15ull * (value + 1);
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-  return z ^ (z >> 31);
-}
-
 Vec2 Sampler::next() {
   const std::uint64_t h = mix_hash(hash_, 2 * dimension_), g = mix_hash(hash_, 2 * dimension_ + 1);
   ++dimension_;

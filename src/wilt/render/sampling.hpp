@@ -4,17 +4,10 @@
 #include <bit>
 #include <cstdint>
 
+#include "wilt/core/hash.hpp"
 #include "wilt/core/types.hpp"
 
 namespace wilt {
-
-/// Mixes a value into a hash (the finaliser of splitmix64, S. Vigna 2015).
-std::uint64_t mix_hash(std::uint64_t hash, std::uint64_t value);
-
-/// A uniform number in [0, 1) from a hash.
-inline double hash_uniform(std::uint64_t hash) {
-  return double(hash >> 11) * 0x1.0p-53;
-}
 
 /// The random numbers of one sample of one pixel.
 ///

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "wilt/core/image.hpp"
 #include "wilt/core/types.hpp"
-#include "wilt/render/image.hpp"
 
 namespace wilt {
 

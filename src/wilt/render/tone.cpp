@@ -30,14 +30,6 @@ double inverse_tone(double y) {
   return std::pow(y * k.c / (1.0 - y * k.b), 1.0 / kToneContrast);
 }
 
-double encode_srgb(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
-
-double decode_srgb(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 Vec3 radiance_of(const Vec3& srgb) {
   return srgb.unaryExpr([](double v) { return inverse_tone(decode_srgb(v)); });
 }

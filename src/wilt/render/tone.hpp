@@ -1,7 +1,7 @@
 // From linear light to what a screen shows, and back.
 #pragma once
 
-#include "wilt/core/types.hpp"
+#include "wilt/core/srgb.hpp"
 
 namespace wilt {
 
@@ -11,9 +11,6 @@ inline constexpr double kToneContrast = 1.25;  // a
 inline constexpr double kToneWhite = 6.0;
 double tone(double x);          ///< in [0, 1]: clipped above kToneWhite
 double inverse_tone(double y);  ///< for y in [0, 1]
-
-double encode_srgb(double linear);   ///< IEC 61966-2-1, both in [0, 1]
-double decode_srgb(double encoded);  ///< its inverse
 
 /// The radiance that is shown as the given sRGB colour.
 Vec3 radiance_of(const Vec3& srgb);

@@ -6,13 +6,13 @@
 #include <memory>
 #include <numbers>
 
+#include "wilt/core/srgb.hpp"
 #include "wilt/mesh/geometry.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/output/tube.hpp"
 #include "wilt/render/leaf_scene.hpp"
 #include "wilt/render/picture.hpp"
 #include "wilt/render/tone.hpp"
-#include "wilt/simulation/colour.hpp"
 
 namespace wilt {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "wilt/core/image.hpp"
 #include "wilt/core/monitor.hpp"
-#include "wilt/render/image.hpp"
 #include "wilt/render/scene.hpp"
 #include "wilt/reproduce/experiments.hpp"
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "wilt/leaf/species.hpp"
+#include "wilt/render/contact_sheet.hpp"
 #include "wilt/reproduce/figures.hpp"
 #include "wilt/reproduce/measures.hpp"
 

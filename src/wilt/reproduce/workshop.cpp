@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "wilt/output/image_codec.hpp"
+
 namespace wilt {
 
 void Workshop::start(const std::string& stage, int steps) {
@@ -19,7 +21,7 @@ void Workshop::done(int steps) {
 
 Picture Workshop::save(const std::string& name, const Image& image, const std::string& alt,
                        const std::string& caption) const {
-  write_png(folder_ + "/" + name + ".png", image);
+  write_image(folder_ + "/" + name + ".png", image);
   return {name + ".png", alt, caption};
 }
 

@@ -8,19 +8,18 @@
 #include "wilt/core/check.hpp"
 #include "wilt/mechanics/area_limit.hpp"
 #include "wilt/mechanics/edge_forces.hpp"
+#include "wilt/mechanics/spontaneous_curvature.hpp"
 #include "wilt/mesh/geometry.hpp"
+#include "wilt/simulation/drying_fields.hpp"
 #include "wilt/simulation/model_parts.hpp"
 #include "wilt/simulation/simulate.hpp"
-#include "wilt/simulation/smooth_noise.hpp"
 #include "wilt/water/dehydration.hpp"
 #include "wilt/water/initial_mass.hpp"
 
 namespace wilt {
 namespace {
 
-constexpr double kVeinReach = 0.05;   // distance over which the lamina loses touch with its vein, / L
-constexpr double kMarginPower = 1.5;  // how late towards the margin the shrinking sets in
-constexpr double kOnVein = 0.6;       // a vertex this near, in mean edges, lies on a vein
+constexpr double kOnVein = 0.6;  // a vertex this near, in mean edges, lies on a vein
 
 double resolution(const ModelInput& input) {
   return static_cast<double>(input.config.reference.vertices) / input.leaf.mesh.num_vertices();
@@ -40,12 +39,6 @@ double loss_rate(const ModelInput& input) {
   return resolution(input) * dehydration_rate(options);
 }
 
-// The wrinkle length l_w / L.
-double wrinkle_length(const ModelInput& input) {
-  const double area = surface_area(input.leaf.mesh, input.rest) / (kWorkingLength * kWorkingLength);
-  return input.config.bending.wrinkle_length * std::sqrt(area);
-}
-
 // k_p alpha_ij l_ref / l_ij: half the sum of the two rest triangles at each edge.
 Eigen::VectorXd swelling_areas(const ModelInput& input, const Eigen::VectorXd& lengths) {
   const SurfaceMesh& mesh = input.leaf.mesh;
@@ -58,6 +51,18 @@ Eigen::VectorXd swelling_areas(const ModelInput& input, const Eigen::VectorXd& l
     result[e] = input.config.swelling.coefficient * 0.5 * both * reference_length / lengths[e];
   }
   return result;
+}
+
+// What the anisotropy of the shrinking adds to eta along each edge.
+Eigen::VectorXd fold_weights(const ModelInput& input, const std::vector<Eigen::Matrix3d>& folds) {
+  const SurfaceMesh& mesh = input.leaf.mesh;
+  Eigen::VectorXd weights(mesh.num_edges());
+  for (const EdgeId e : mesh.edges()) {
+    const auto [a, b] = mesh.edge_vertices(e);
+    const Vec3 t = (input.rest.row(b) - input.rest.row(a)).normalized().transpose();
+    weights[e] = 0.5 * t.dot((folds[a] + folds[b]) * t);
+  }
+  return weights;
 }
 
 // Whether each vertex lies on a vein.
@@ -79,38 +84,23 @@ Eigen::VectorXd spring_stiffness(const ModelInput& input) {
   return stiffness;
 }
 
-// k_b, with the hinges across veins stiffer: those whose far corners lie on one resist its bending, while the
-// lamina may still fold along it.
-Eigen::VectorXd bending_stiffness(const ModelInput& input, const Stencil& hinges) {
+// k_b with the grain, and with the hinges across veins stiffer: those whose far corners lie on one resist its
+// bending, while the lamina may still fold along it.
+Eigen::VectorXd bending_stiffness(const ModelInput& input, const Stencil& hinges,
+                                  const std::vector<Eigen::Matrix3d>& grain) {
   const double k_b = input.config.bending.stiffness * std::pow(kWorkingLength / 5.0, 2.0) *
                      std::pow(wrinkle_length(input) / 0.15, 2.0);
   const auto on_vein = on_veins(input);
+  const Eigen::VectorXd grain_across = across_hinges(hinges, input.rest, grain);
   Eigen::VectorXd stiffness(hinges.rows());
   for (int h = 0; h < hinges.rows(); ++h) {
     const bool across = on_vein[hinges(h, 2)] && on_vein[hinges(h, 3)];
-    stiffness[h] = k_b * (across ? input.config.bending.vein_factor : 1.0);
+    stiffness[h] = k_b * (1.0 + grain_across[h]) * (across ? input.config.bending.vein_factor : 1.0);
   }
   return stiffness;
 }
 
 }  // namespace
-
-Eigen::VectorXd differential_strain(const ModelInput& input) {
-  const auto& c = input.config.shrinkage;
-  const double length = kWorkingLength / input.scale;
-  const Eigen::VectorXd& gd = input.venation.primary_distance;
-  const Eigen::VectorXd& d_v = input.venation.vein_distance;
-  const Eigen::VectorXd xi =
-      smooth_noise(input.leaf.positions.leftCols<2>() / length, wrinkle_length(input),
-                   static_cast<std::uint64_t>(input.config.seed), "differential strain");
-  Eigen::VectorXd eta(gd.size());
-  for (int i = 0; i < eta.size(); ++i) {
-    const double gap = std::clamp(d_v[i] / length / kVeinReach, 0.0, 1.0);
-    eta[i] = c.amount * (-c.vein_gap * gap * gap - c.margin * std::pow(gd[i] / gd.maxCoeff(), kMarginPower) +
-                         c.noise * xi[i]);
-  }
-  return eta;
-}
 
 CellModel::CellModel(const ModelInput& input)
     : edges_(input.leaf.mesh.edge_matrix()),
@@ -121,10 +111,13 @@ CellModel::CellModel(const ModelInput& input)
       system_(water_.mass(), pinned_vertices(input)),
       droop_(input, water_.mass()),
       swelling_area_(swelling_areas(input, rest_lengths(input.leaf.mesh, input.rest))),
-      swelling_weight_(differential_strain(input)),
       hinges_(hinge_stencil(input.leaf.mesh.face_matrix())),
       bending_turgor_loss_(input.config.bending.turgor_loss) {
-  fresh_bending_ = bending_stiffness(input, hinges_);
+  const DryingFields fields = drying_fields(input);
+  swelling_weight_ = fields.strain;
+  fold_weight_ = fold_weights(input, fields.folds);
+  fresh_bending_ = bending_stiffness(input, hinges_, fields.grain);
+  drying_angles_ = curvature_angles(hinges_, input.rest, fields.curvature);
   add_terms(input, rest_lengths(input.leaf.mesh, input.rest));
 }
 
@@ -143,6 +136,7 @@ void CellModel::add_terms(const ModelInput& input, const Eigen::VectorXd& length
                                   c.strain_limit.area));
   swelling_ = &system_.add_energy("swelling", std::make_unique<LineTension>(edges_, constant(0.0)));
   bending_ = &system_.add_energy("bending", std::make_unique<Hinges>(hinges_, input.rest, fresh_bending_));
+  fresh_angles_ = bending_->rest_angles();
   gravity_ = &system_.add_energy("gravity", std::make_unique<Gravity>(water_.mass(), droop_.gravity()));
   system_.add_force("damping", std::make_unique<EdgeDamping>(edges_, constant(c.springs.damping)));
   external_force_ = &system_.add_force("external", std::make_unique<NodalForce>(external_.on_vertices()));
@@ -162,21 +156,26 @@ void CellModel::advance(double dt, const Points3& x) {
 }
 
 void CellModel::update_swelling() {
-  const Eigen::VectorXd weighted = swelling_weight_.cwiseProduct(water_.pressure_drop());
+  const Eigen::VectorXd dp = water_.pressure_drop();
+  const Eigen::VectorXd weighted = swelling_weight_.cwiseProduct(dp);
   Eigen::VectorXd c(edges_.rows());
   for (int e = 0; e < edges_.rows(); ++e)
-    c[e] = swelling_area_[e] * 0.5 * (weighted[edges_(e, 0)] + weighted[edges_(e, 1)]);
+    c[e] = swelling_area_[e] * 0.5 *
+           (weighted[edges_(e, 0)] + weighted[edges_(e, 1)] +
+            fold_weight_[e] * (dp[edges_(e, 0)] + dp[edges_(e, 1)]));
   swelling_->set_coefficients(c);
 }
 
 void CellModel::update_bending() {
   const Eigen::VectorXd dryness = water_.dryness();
-  Eigen::VectorXd stiffness(hinges_.rows());
+  Eigen::VectorXd stiffness(hinges_.rows()), angles(hinges_.rows());
   for (int h = 0; h < hinges_.rows(); ++h) {
     const double dry = 0.5 * (dryness[hinges_(h, 0)] + dryness[hinges_(h, 1)]);
+    angles[h] = fresh_angles_[h] + dry * drying_angles_[h];
     stiffness[h] = fresh_bending_[h] * (1.0 - bending_turgor_loss_ * dry);
   }
   bending_->set_stiffness(stiffness);
+  bending_->set_rest_angles(angles);
 }
 
 ForceBreakdown CellModel::forces(const Points3& x, const Points3& v) const {

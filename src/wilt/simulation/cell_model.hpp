@@ -41,16 +41,16 @@ class CellModel : public DeformationModel {
   PetioleDroop droop_;
   Eigen::VectorXd swelling_area_;    // #E, k_p alpha_ij
   Eigen::VectorXd swelling_weight_;  // #V, eta
+  Eigen::VectorXd fold_weight_;      // #E, what folding adds to eta along an edge
   Stencil hinges_;
   Eigen::VectorXd fresh_bending_;  // #H, k_b at full turgor
+  Eigen::VectorXd fresh_angles_;   // #H, rest angles of the fresh blade
+  Eigen::VectorXd drying_angles_;  // #H, what full dryness adds to them
   double bending_turgor_loss_;
   LineTension* swelling_ = nullptr;
   Hinges* bending_ = nullptr;
   Gravity* gravity_ = nullptr;
   NodalForce* external_force_ = nullptr;
 };
-
-/// eta of docs/method.md, section 6.3, #V: how strongly each vertex's swelling acts; negative: it shrinks.
-Eigen::VectorXd differential_strain(const ModelInput& input);
 
 }  // namespace wilt

@@ -18,7 +18,10 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr int kFewestVertices = 200;  // what an outline can be meshed with
+// The least that is allowed beside 0, where 0 has a meaning of its own.
+int least_above_zero(const std::string& key) {
+  return key == "vertices" ? 200 : key == "texture.size" ? 16 : 0;
+}
 
 [[noreturn]] void fail(const std::string& message) {
   throw Error(ErrorCode::configuration, message);
@@ -65,8 +68,8 @@ void assign_number(const Setting& setting, const Setting::Field& field, double v
     **number = value;
   } else if (value != std::floor(value)) {
     fail(fmt::format("{} must be a whole number, not {}", setting.key, value));
-  } else if (setting.key == "vertices" && value > 0 && value < kFewestVertices) {
-    fail(fmt::format("vertices must be 0 or between {} and {}, not {}", kFewestVertices, setting.max, value));
+  } else if (const int least = least_above_zero(setting.key); value > 0 && value < least) {
+    fail(fmt::format("{} must be 0 or between {} and {}, not {}", setting.key, least, setting.max, value));
   } else {
     *std::get<std::int64_t*>(field) = static_cast<std::int64_t>(value);
   }
@@ -150,6 +153,7 @@ Config default_config(const Species& species) {
   config.water.dryness_scale = p.dryness_scale;
   config.external.range = p.force_range;
   config.shrinkage.amount = p.shrinkage;
+  config.curvature.roll = p.roll;
   return config;
 }
 

@@ -56,17 +56,24 @@ struct Config {
     double range = 1.0, growth = 0.3, scale = 1.0;
   } external;
   struct {
-    double stiffness = 3e-4, wrinkle_length = 0.2, turgor_loss = 0.5, vein_factor = 5.0;
+    double stiffness = 6e-4, wrinkle_length = 0.2, turgor_loss = 0.5, vein_factor = 5.0, grain = 4.0,
+           rim_factor = 20.0;
   } bending;
   struct {
-    double amount = 1.0, vein_gap = 1.0, margin = 1.0, noise = 0.9;
+    double amount = 1.0, vein_gap = 1.0, margin = 1.0, noise = 0.75, fold = 0.5, crinkle = 0.5;
   } shrinkage;
+  struct {
+    double roll = 60.0, roll_reach = 0.06, tip = 12.0, tip_reach = 0.2, panel = 80.0, variation = 0.5;
+  } curvature;
   struct {
     double threshold = 0.35, stiffness = 40.0, area = 0.4;
   } strain_limit;
   struct {
     double strength = 0.004, petiole_stiffness = 15.0, petiole_turgor_loss = 0.9;
   } gravity;
+  struct {
+    std::int64_t size = 1024;
+  } texture;
   struct {
     std::int64_t vertices = 120;
   } reference;

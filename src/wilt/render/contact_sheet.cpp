@@ -1,4 +1,4 @@
-#include "wilt/render/image.hpp"
+#include "wilt/render/contact_sheet.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,21 @@
+// Random numbers that depend on a place alone: no stream, no order.
+#pragma once
+
+#include <cstdint>
+
+namespace wilt {
+
+/// Mixes a value into a hash (the finaliser of splitmix64, S. Vigna 2015).
+inline std::uint64_t mix_hash(std::uint64_t hash, std::uint64_t value) {
+  std::uint64_t z = hash + 0x9e3779b97f4a7c15ULL * (value + 1);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return z ^ (z >> 31);
+}
+
+/// A uniform number in [0, 1) from a hash.
+inline double hash_uniform(std::uint64_t hash) {
+  return double(hash >> 11) * 0x1.0p-53;
+}
+
+}  // namespace wilt

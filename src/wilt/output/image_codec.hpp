@@ -1,0 +1,29 @@
+// Pictures as bytes of a file: PNG and JPEG.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "wilt/core/image.hpp"
+
+namespace wilt {
+
+/// A JPEG, quality 1 to 100; above 90 colour is not subsampled. Throws std::logic_error for a wrong size,
+/// Error{output} when it cannot be encoded (more than 65535 pixels on a side).
+std::string encode_jpeg(const Image& image, int quality = 95);
+
+/// A PNG, lossless. Throws std::logic_error for a wrong size, Error{output} when it cannot be encoded.
+std::string encode_png(const Image& image);
+
+/// Reads a PNG or a JPEG; an alpha channel is dropped. Throws Error{input} with the reason when it is
+/// neither, or damaged.
+Image decode_image(std::string_view bytes);
+
+/// Whether the name ends in .png, .jpg or .jpeg.
+bool is_picture_path(const std::string& path);
+
+/// Writes the picture by its name's end, whole or not at all. Throws Error{configuration} for another end,
+/// Error{output} when it cannot be written.
+void write_image(const std::string& path, const Image& image);
+
+}  // namespace wilt

@@ -1,0 +1,149 @@
+#include "wilt/simulation/senescence.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "wilt/core/parallel.hpp"
+#include "wilt/simulation/smooth_noise.hpp"
+
+namespace wilt {
+namespace {
+
+// Calibrations; lengths in units of the leaf's length.
+constexpr double kGapLead = 0.16, kGapWidth = 0.022;   // tissue between veins over tissue beside them
+constexpr double kRimLead = 0.22, kRimWidth = 0.022;   // the margin
+constexpr double kPatchSize = 0.30, kSpeckle = 0.075;  // wavelengths of the noise
+constexpr double kRedPatch = 0.60;                     // and of the red patches
+constexpr double kVeinLag = 0.20;                      // how far a vein stays behind, of its age
+constexpr double kOldestTissue = 1.15;
+
+double smooth_step(double a, double b, double x) {
+  const double t = std::clamp((x - a) / (b - a), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+double mix(double a, double b, double t) {
+  return a + t * (b - a);
+}
+
+// Distance of every vertex to the edges of the boundary, in the x-y plane.
+Eigen::VectorXd distance_to_margin(const Leaf& leaf) {
+  std::vector<std::array<Vec2, 2>> edges;
+  for (const std::vector<VertexId>& loop : leaf.mesh.boundary_loops()) {
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      edges.push_back({leaf.positions.row(loop[i]).head<2>().transpose(),
+                       leaf.positions.row(loop[(i + 1) % loop.size()]).head<2>().transpose()});
+  }
+  Eigen::VectorXd distance(leaf.positions.rows());
+  parallel_for(static_cast<int>(distance.size()), 64, [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      const Vec2 p = leaf.positions.row(v).head<2>().transpose();
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto& edge : edges) {
+        const Vec2 along = edge[1] - edge[0];
+        const double t =
+            std::clamp((p - edge[0]).dot(along) / std::max(along.squaredNorm(), 1e-30), 0.0, 1.0);
+        nearest = std::min(nearest, (p - edge[0] - t * along).squaredNorm());
+      }
+      distance[v] = std::sqrt(nearest);
+    }
+  });
+  return distance;
+}
+
+double bell(double distance, double width) {
+  return std::exp(-(distance / width) * (distance / width));
+}
+
+}  // namespace
+
+LeafTissue senescent_tissue(const Pigmentation& p, const TissueState& state) {
+  const double vein = std::clamp(state.vein, 0.0, 1.0), red = std::clamp(state.redness, 0.0, 1.0);
+  const double a = std::clamp(state.age, 0.0, kOldest) * (1.0 - kVeinLag * vein);
+  const double pale = mix(1.0, p.vein_pigment, vein);
+  const double green = 1.0 - smooth_step(0.08, 0.62, a), yellow = 1.0 - smooth_step(0.5, 1.05, a);
+  const double dead = smooth_step(0.55, 1.0, a), rotten = std::max(a - 1.05, 0.0) / 0.45;
+  LeafTissue tissue;
+  tissue.chlorophyll = pale * p.chlorophyll * mix(p.chlorophyll_left, 1.0, green);
+  tissue.carotenoids = pale * p.carotenoids * mix(p.carotenoids_left, 1.0, yellow);
+  tissue.anthocyanin = red * p.anthocyanin * smooth_step(0.2, 0.65, a) * (1.0 - 0.7 * dead);
+  tissue.brown = std::min(mix(1.0, p.vein_brown, vein) * p.brown * (dead + 2.5 * rotten), 5.0);
+  tissue.structure =
+      std::clamp(mix(p.structure, p.structure_dry, dead) + 0.3 * vein - 0.8 * rotten, 1.0, 4.0);
+  tissue.water = p.water * mix(1.0, 0.08, std::min(a, 1.0));
+  tissue.dry_matter = p.dry_matter;
+  return tissue;
+}
+
+SenescencePattern senescence_pattern(const Leaf& leaf, const Venation& venation,
+                                     const Pigmentation& pigments) {
+  const double length = leaf_length(leaf);
+  const Points2 plane = leaf.positions.leftCols<2>() / length;
+  const Eigen::VectorXd broad = smooth_noise(plane, kPatchSize, leaf.seed, "senescence patches"),
+                        small = smooth_noise(plane, kSpeckle, leaf.seed, "senescence speckle"),
+                        red = smooth_noise(plane, kRedPatch, leaf.seed, "senescence red");
+  const double farthest = std::max(venation.primary_distance.maxCoeff(), 1e-12 * length);
+  SenescencePattern pattern;
+  pattern.margin_distance = distance_to_margin(leaf);
+  const Eigen::Index count = leaf.positions.rows();
+  pattern.ahead.resize(count), pattern.redness.resize(count);
+  for (Eigen::Index v = 0; v < count; ++v) {
+    const double reach = venation.primary_distance[v] / farthest;
+    const double beside = bell(venation.vein_distance[v], kGapWidth * length);
+    const double rim = bell(pattern.margin_distance[v], kRimWidth * length);
+    pattern.ahead[v] = pigments.margin_lead * (reach - 0.25) + kGapLead * (0.35 - beside) + kRimLead * rim +
+                       pigments.patchiness * (broad[v] + 0.5 * small[v]);
+    // More towards the margin, in patches.
+    pattern.redness[v] = smooth_step(-1.2, 1.8, red[v] + 0.15 * small[v] + 1.2 * (reach - 0.4));
+  }
+  return pattern;
+}
+
+double tissue_age(double dryness, double ahead) {
+  return std::clamp(dryness * (1.0 + ahead), 0.0, kOldestTissue);
+}
+
+TissueColours::TissueColours(const Pigmentation& pigments)
+    : table_(static_cast<std::size_t>(kAges) * kReds * kVeins) {
+  parallel_for(kAges, 1, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      for (int j = 0; j < kReds; ++j) {
+        for (int k = 0; k < kVeins; ++k) {
+          const TissueState state{kOldest * i / (kAges - 1), j / (kReds - 1.0), k / (kVeins - 1.0)};
+          table_[static_cast<std::size_t>((i * kReds + j) * kVeins + k)] =
+              leaf_light(senescent_tissue(pigments, state)).reflectance;
+        }
+      }
+    }
+  });
+}
+
+Vec3 TissueColours::operator()(const TissueState& state) const {
+  const auto place = [](double value, double most, int count, int& cell) {
+    const double x = std::clamp(value / most, 0.0, 1.0) * (count - 1);
+    cell = std::min(static_cast<int>(x), count - 2);
+    return x - cell;
+  };
+  int i = 0, j = 0, k = 0;
+  const double s = place(state.age, kOldest, kAges, i), t = place(state.redness, 1.0, kReds, j),
+               u = place(state.vein, 1.0, kVeins, k);
+  Vec3 sum = Vec3::Zero();
+  for (int corner = 0; corner < 8; ++corner) {
+    const int di = corner & 1, dj = (corner >> 1) & 1, dk = corner >> 2;
+    const double weight = (di ? s : 1.0 - s) * (dj ? t : 1.0 - t) * (dk ? u : 1.0 - u);
+    sum += weight * table_[static_cast<std::size_t>(((i + di) * kReds + j + dj) * kVeins + k + dk)];
+  }
+  return sum;
+}
+
+Points3 leaf_colours(const SenescencePattern& pattern, const TissueColours& colours,
+                     const Eigen::VectorXd& dryness) {
+  Points3 result(dryness.size(), 3);
+  for (Eigen::Index v = 0; v < dryness.size(); ++v)
+    result.row(v) = colours({tissue_age(dryness[v], pattern.ahead[v]), pattern.redness[v], 0.0}).transpose();
+  return result;
+}
+
+}  // namespace wilt

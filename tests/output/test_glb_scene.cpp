@@ -1,0 +1,82 @@
+// Colours and texture of a run in its GLB.
+#include <gtest/gtest.h>
+
+#include "wilt/core/srgb.hpp"
+#include "wilt/leaf/species.hpp"
+#include "wilt/output/gltf.hpp"
+#include "wilt/output/image_codec.hpp"
+#include "wilt/simulation/senescence.hpp"
+#include "wilt/venation/venation.hpp"
+
+namespace wilt {
+namespace {
+
+struct Case {
+  Leaf leaf = make_leaf("grape", 500, 1);
+  Config config = default_config(species("grape"));
+  Venation venation = find_venation(leaf, species("grape").secondary);
+  std::vector<Frame> frames;
+
+  Case() {
+    config.texture.size = 128;
+    for (const int iteration : {0, 40, 100}) {
+      Frame frame = rest_frames(leaf).front();
+      frame.iteration = iteration;
+      frame.dryness.setConstant(0.009 * iteration);
+      frames.push_back(frame);
+    }
+  }
+};
+
+// Oracle: the colours of the states. COLOR_0 over COLOR_0 of the last frame is C_k over C_last, wherever
+// nothing was clipped; the last COLOR_0 is one constant; a single-colour reader sees the last frame.
+TEST(GlbSceneOfARun, TextureTimesColourIsTheFramesColour) {
+  const Case run;
+  const GlbScene scene = glb_scene(run.leaf, run.venation, run.config, run.frames);
+  const Pigmentation& pigments = species("grape").pigments;
+  const SenescencePattern pattern = senescence_pattern(run.leaf, run.venation, pigments);
+  const TissueColours tissue(pigments);
+  ASSERT_EQ(scene.colours.size(), 3u);
+  const Points3& last = scene.colours.back();
+  for (int v = 1; v < last.rows(); ++v) EXPECT_LT((last.row(v) - last.row(0)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LE(last.maxCoeff(), 1.0);
+  const Points3 dry = leaf_colours(pattern, tissue, run.frames.back().dryness);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Points3 state = leaf_colours(pattern, tissue, run.frames[k].dryness);
+    for (int i = 0; i < state.size(); ++i) {
+      const double shown = scene.colours[k].data()[i];
+      EXPECT_GE(shown, 0.0);
+      EXPECT_LE(shown, 1.0);
+      if (shown < 1.0 && dry.data()[i] > 0.01 && state.data()[i] > 0.01) {
+        EXPECT_NEAR(shown / last.data()[i], state.data()[i] / dry.data()[i], 1e-9);
+      }
+    }
+  }
+}
+
+// Oracle: the bytes that were written; they are a picture of the size that was asked for, and frames come
+// back from the file as given.
+TEST(GlbSceneOfARun, CarriesItsTextureThroughTheFile) {
+  const Case run;
+  const GlbScene scene = glb_scene(run.leaf, run.venation, run.config, run.frames);
+  const GlbFile file = parse_glb(glb_bytes(scene), "grape");
+  EXPECT_EQ(file.texture, scene.texture);
+  const Image picture = decode_image(file.texture);
+  EXPECT_EQ(picture.width, 128);
+  EXPECT_EQ(picture.height, 128);
+  ASSERT_EQ(file.meshes.front().colours.size(), 3u);
+}
+
+// Oracle: the colours of the states themselves.
+TEST(GlbSceneOfARun, HasColoursPerVertexWithoutATexture) {
+  Case run;
+  run.config.texture.size = 0;
+  const GlbScene scene = glb_scene(run.leaf, run.venation, run.config, run.frames);
+  EXPECT_TRUE(scene.texture.empty());
+  const Pigmentation& pigments = species("grape").pigments;
+  EXPECT_EQ(scene.colours[1], leaf_colours(senescence_pattern(run.leaf, run.venation, pigments),
+                                           TissueColours(pigments), run.frames[1].dryness));
+}
+
+}  // namespace
+}  // namespace wilt

@@ -1,0 +1,63 @@
+#include "wilt/output/image_codec.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "wilt/core/error.hpp"
+#include "wilt/output/file.hpp"
+
+namespace wilt {
+namespace {
+
+Image gradient(int width, int height) {
+  Image picture{width, height, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (const int value : {4 * x, 3 * y, 255 - 2 * x - y})
+        picture.rgb.push_back(static_cast<std::uint8_t>(value));
+  return picture;
+}
+
+// Round trip: quality 95 keeps a smooth picture within 4 of 255.
+TEST(ImageCodec, JpegComesBack) {
+  const Image picture = gradient(61, 40);
+  const std::string bytes = encode_jpeg(picture);
+  EXPECT_EQ(bytes.substr(0, 2), "\xff\xd8");
+  const Image back = decode_image(bytes);
+  ASSERT_EQ(back.width, 61);
+  ASSERT_EQ(back.height, 40);
+  for (std::size_t i = 0; i < picture.rgb.size(); ++i)
+    ASSERT_LE(std::abs(int(picture.rgb[i]) - int(back.rgb[i])), 4) << i;
+  EXPECT_EQ(encode_jpeg(picture), bytes);
+}
+
+// Round trip: a PNG loses nothing.
+TEST(ImageCodec, PngComesBackExactly) {
+  const Image picture = gradient(61, 40);
+  EXPECT_EQ(decode_image(encode_png(picture)).rgb, picture.rgb);
+}
+
+// Oracle: the formats' first bytes; another name's end is refused, and so is a folder that is not there.
+TEST(ImageCodec, TheNameDecidesTheFormat) {
+  const std::string folder = testing::TempDir();
+  write_image(folder + "/wilt_codec.png", gradient(8, 5));
+  write_image(folder + "/wilt_codec.jpg", gradient(8, 5));
+  EXPECT_EQ(read_file(folder + "/wilt_codec.png").substr(1, 3), "PNG");
+  EXPECT_EQ(read_file(folder + "/wilt_codec.jpg").substr(0, 2), "\xff\xd8");
+  EXPECT_THROW(write_image(folder + "/wilt_codec.tiff", gradient(8, 5)), Error);
+  EXPECT_THROW(write_image(folder + "/missing/a.png", gradient(8, 5)), Error);
+}
+
+// Negative: bytes that are no picture, and a picture that is cut off.
+TEST(ImageCodec, RefusesWhatIsNoPicture) {
+  EXPECT_THROW(decode_image(""), Error);
+  EXPECT_THROW(decode_image("v 0 0 0"), Error);
+  const std::string bytes = encode_jpeg(gradient(32, 32));
+  EXPECT_THROW(decode_image(bytes.substr(0, 20)), Error);
+  EXPECT_THROW(encode_jpeg({4, 4, {1, 2, 3}}), std::logic_error);
+}
+
+}  // namespace
+}  // namespace wilt
