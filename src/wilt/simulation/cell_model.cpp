@@ -117,7 +117,8 @@ CellModel::CellModel(const ModelInput& input)
   swelling_weight_ = fields.strain;
   fold_weight_ = fold_weights(input, fields.folds);
   fresh_bending_ = bending_stiffness(input, hinges_, fields.grain);
-  drying_angles_ = curvature_angles(hinges_, input.rest, fields.curvature);
+  // The two faces differ in one and the same swelling: without it there is no curvature either.
+  drying_angles_ = input.config.swelling.coefficient * curvature_angles(hinges_, input.rest, fields.curvature);
   add_terms(input, rest_lengths(input.leaf.mesh, input.rest));
 }
 
