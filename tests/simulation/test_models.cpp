@@ -181,7 +181,7 @@ TEST(CellModel, RollsTheMarginTheWayItsCurvaturePoints) {
     const Points3 x = run(c).frames.back().positions;
     const std::vector<VertexId>& rim = margin_loop(c.leaf.mesh, c.leaf.positions);
     double sum = 0.0;
-    for (const VertexId v : rim) sum += x(v, 2);
+    for (const VertexId v : rim) sum += x.row(v).z();
     return sum / static_cast<double>(rim.size()) / leaf_length(c.leaf);
   };
   const double flat = margin_height(0.0);

@@ -47,7 +47,11 @@ Json veins_json(const GlbScene& scene) {
 
 std::string glb_extras(const GlbScene& scene) {
   Json frames = Json::array();
-  for (const Frame& frame : scene.frames) frames.push_back(frame.iteration);
+  Json dryness = Json::array();
+  for (const Frame& frame : scene.frames) {
+    frames.push_back(frame.iteration);
+    dryness.push_back(frame.dryness.size() > 0 ? std::round(frame.dryness.mean() * 1e6) / 1e6 : 0.0);
+  }
   const Leaf& leaf = scene.leaf;
   const Json extras = {{"version", version()},
                        {"config", Json::parse(scene.config)},
@@ -56,6 +60,7 @@ std::string glb_extras(const GlbScene& scene) {
                        {"metres_per_unit", metres_per_unit(leaf.placement)},
                        {"up", "Y"},
                        {"frames", frames},
+                       {"dryness", dryness},
                        {"veins", veins_json(scene)}};
   return extras.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kStalkDries = 0.7;  // share of dead tissue's colour in the stalk of a dry leaf
 constexpr double kStalkShade = 0.6;  // and that darker than the blade's
-constexpr double kDarkest = 0.004;  // colours that are divided by are kept above it
+constexpr double kDarkest = 0.004;   // colours that are divided by are kept above it
 
 // What the texture is brighter than the last frame by, so that no earlier frame asks for a vertex colour
 // above 1; limited by the brightest place of the last frame, which the texture must hold.

@@ -53,10 +53,10 @@ std::vector<Frame> rest_frames(const Leaf& leaf);
 /// one-hot keys: playing it is piecewise linear between frames. The base has the shape of the first frame and
 /// the colours of the last one, which readers without colour morphs show; the default weights show the last.
 /// Coordinates as in coordinates.hpp. asset.extras.wilt: version, config, leaf, units, metres_per_unit, up,
-/// frames (iterations), veins (order, positions, and the face of the blade and the barycentric coordinates of
-/// every point, so that they can follow the blade). The same scene gives the same bytes. Throws Error{output}
-/// above the 4 GB of the format, std::logic_error for wrong sizes or positions that are not finite. O(#frames
-/// #V).
+/// frames (iterations), dryness (mean, per frame), veins (order, positions, and the face of the blade and the
+/// barycentric coordinates of every point, so that they can follow the blade). The same scene gives the same
+/// bytes. Throws Error{output} above the 4 GB of the format, std::logic_error for wrong sizes or positions
+/// that are not finite. O(#frames #V).
 std::string glb_bytes(const GlbScene& scene, const GlbOptions& options = {});
 
 /// The same into a file, by write_file().
@@ -84,6 +84,7 @@ struct GlbFile {
   std::vector<GlbMesh> meshes;  ///< the blade, then the stalk if there is one
   std::vector<double> times;    ///< seconds, one per frame (one frame: 0)
   std::vector<int> iterations;  ///< one per frame
+  std::vector<double> dryness;  ///< mean over the blade, 0 to 1, one per frame
   std::vector<GlbVein> veins;
   std::string texture;         ///< bytes of a PNG or JPEG that multiplies the blade's colours
   std::string normal_texture;  ///< the same of its normal map, or empty

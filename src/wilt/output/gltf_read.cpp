@@ -149,6 +149,7 @@ void read_extras(const Json& document, GlbFile& file) {
   file.generator = document["asset"].at("generator").get<std::string>();
   file.extras = extras.dump();
   file.iterations = extras.at("frames").get<std::vector<int>>();
+  file.dryness = extras.at("dryness").get<std::vector<double>>();
   const int faces = static_cast<int>(file.meshes.front().faces.rows());
   for (const Json& vein : extras.at("veins")) {
     GlbVein read{vein.at("order").get<int>(), points_from(vein.at("positions")),
@@ -197,7 +198,8 @@ GlbFile read_all(std::string_view bytes, std::string_view json) {
   file.times = read_times(model, gltf);
   read_extras(document, file);
   for (const GlbMesh& mesh : file.meshes) {
-    if (mesh.frames.size() != file.times.size() || mesh.frames.size() != file.iterations.size()) {
+    if (mesh.frames.size() != file.times.size() || mesh.frames.size() != file.iterations.size() ||
+        file.dryness.size() != file.times.size()) {
       refuse(fmt::format("mesh '{}' has {} frames, {} key times and {} iterations", mesh.name,
                          mesh.frames.size(), file.times.size(), file.iterations.size()));
     }

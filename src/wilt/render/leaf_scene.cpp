@@ -17,7 +17,8 @@ constexpr int kMaxLevels = 2;
 constexpr double kRimRadius = 0.0009;  // in leaf lengths
 constexpr double kRimShade = 0.85;     // of the blade's colour
 constexpr int kRimSides = 5;
-constexpr int kBlendedFrames = 2;  // on either side
+constexpr double kFreshRelief = 0.3;  // of the relief of the dry leaf
+constexpr int kBlendedFrames = 2;     // on either side
 
 Vec3 area_vector(const Points3& positions, const Faces& faces) {
   Vec3 sum = Vec3::Zero();
@@ -116,6 +117,15 @@ Surface LeafScene::surface(const GlbMesh& mesh, double frame) const {
   return result;
 }
 
+// The normal map is of the last frame; a leaf that is still fresh is smoother.
+double LeafScene::relief(double frame) const {
+  const auto k = std::min(static_cast<std::size_t>(frame), file_.dryness.size() - 1);
+  const auto next = std::min(k + 1, file_.dryness.size() - 1);
+  const double dryness = file_.dryness[k] + (frame - double(k)) * (file_.dryness[next] - file_.dryness[k]);
+  const double last = file_.dryness.back();
+  return last > 0.0 ? kFreshRelief + (1.0 - kFreshRelief) * std::clamp(dryness / last, 0.0, 1.0) : 1.0;
+}
+
 // A thin tube along the margin, in the colour of the blade beside it but darker.
 Surface LeafScene::rim(const Surface& blade) const {
   const Texture colour_map(blade.colour_map, Texture::Kind::colour);
@@ -163,6 +173,7 @@ Scene LeafScene::at(double frame) const {
   blade.leaf = true;
   blade.uv = file_.meshes.front().uv;
   if (blade.uv.rows() > 0) blade.colour_map = colour_map_, blade.normal_map = normal_map_;
+  blade.finish.relief = relief(frame);
   int levels = 0;
   while (levels < kMaxLevels && (blade.faces.rows() << (2 * (levels + 1))) <= kRefinedFaces) ++levels;
   refine(blade, levels);

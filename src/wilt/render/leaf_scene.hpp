@@ -30,6 +30,7 @@ class LeafScene {
  private:
   Surface surface(const GlbMesh& mesh, double frame) const;
   Surface rim(const Surface& blade) const;
+  double relief(double frame) const;
 
   const GlbFile& file_;
   std::vector<Eigen::Quaterniond> turns_;  // from the file's axes to the table's, one per frame

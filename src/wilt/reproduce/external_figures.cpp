@@ -171,7 +171,7 @@ Figure figure_13(Workshop& workshop) {
   Plot plot{"fig13-range",
             {{"Tip against its lobe", "K_r", "rotation, degrees", {}},
              {"Tip against the petiole", "K_r", "curl, degrees", {}},
-             {"Part that moves", "K_r", "share of the blade", {}}},
+             {"Part that curls", "K_r", "share of the blade", {}}},
             3,
             400,
             280};

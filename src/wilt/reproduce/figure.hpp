@@ -69,7 +69,4 @@ struct Figure {
   std::vector<Claim> claims;
 };
 
-/// Every file that the report of a figure links to.
-std::vector<std::string> files_of(const Figure& figure);
-
 }  // namespace wilt

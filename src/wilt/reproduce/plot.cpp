@@ -21,7 +21,8 @@ namespace {
 constexpr std::array<const char*, 7> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                  "#e69f00", "#56b4e9", "#000000"};
 constexpr const char* kInkColour = "#8a8a8a";
-constexpr double kLabelGap = 0.075;  // least distance between labels of curves, of the height
+constexpr std::size_t kManyPoints = 500;  // drawn smaller
+constexpr double kLabelGap = 0.075;       // least distance between labels of curves, of the height
 
 constexpr const char* kStyle = R"(set encoding utf8
 set datafile separator comma
@@ -106,7 +107,8 @@ std::vector<double> label_heights(const Panel& panel, const Range& y) {
 
 std::string style_of(const Series& series, std::size_t place) {
   const std::string colour = colour_of(series, place);
-  const std::string point = fmt::format("pointtype 7 pointsize 0.5 linecolor rgb '{}'", colour);
+  const std::string point = fmt::format("pointtype 7 pointsize {} linecolor rgb '{}'",
+                                        series.x.size() > kManyPoints ? 0.25 : 0.5, colour);
   const std::string line =
       fmt::format("linewidth {} dashtype {} linecolor rgb '{}'", series.colour == Series::kInk ? 1.0 : 1.8,
                   series.colour < 0 && place > 0 ? fmt::format("{}", place % 5 + 1) : "1", colour);
