@@ -128,7 +128,7 @@ TEST_P(EveryPigmentation, TableAgreesWithTheOptics) {
   for (int trial = 0; trial < 500; ++trial) {
     const TissueState state{random.uniform(0.0, kOldest), random.uniform(), random.uniform()};
     const Vec3 exact = leaf_light(senescent_tissue(p, state)).reflectance;
-    EXPECT_LT((colours(state) - exact).cwiseAbs().maxCoeff(), 0.004) << state.age << " " << state.redness;
+    EXPECT_LT((colours(state) - exact).cwiseAbs().maxCoeff(), 0.006) << state.age << " " << state.redness;
   }
 }
 

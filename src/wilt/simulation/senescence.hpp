@@ -47,14 +47,14 @@ SenescencePattern senescence_pattern(const Leaf& leaf, const Venation& venation,
 double tissue_age(double dryness, double ahead);
 
 /// The colours of a species' tissue, tabulated over its states for quick look-up: leaf_light(
-/// senescent_tissue(state)).reflectance within 0.004 of a channel's 1.
+/// senescent_tissue(state)).reflectance within 0.006 of a channel's 1.
 class TissueColours {
  public:
   explicit TissueColours(const Pigmentation& pigments);
   Vec3 operator()(const TissueState& state) const;
 
  private:
-  static constexpr int kAges = 121, kReds = 9, kVeins = 9;
+  static constexpr int kAges = 91, kReds = 9, kVeins = 17;
   std::vector<Vec3> table_;
 };
 
