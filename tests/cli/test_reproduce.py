@@ -59,7 +59,7 @@ class Reproduce(unittest.TestCase):
         for svg in self.dir.glob("*.svg"):
             ElementTree.parse(svg)
         text = "".join(page.itertext())
-        for row in csv.DictReader((self.dir / "claims.csv").open()):
+        for row in csv.DictReader((self.dir / "claims.csv").read_text().splitlines()):
             self.assertIn(row["reason"], text)
         self.assertNotIn(str(self.dir), (self.dir / "index.html").read_text())
 
@@ -67,7 +67,7 @@ class Reproduce(unittest.TestCase):
         result = self.expect(0, "table1", "fig2", "-o", self.dir, "--json", "-q", *SMALL)
         self.assertEqual(result.stderr, "")
         claims = json.loads(result.stdout)
-        rows = list(csv.DictReader((self.dir / "claims.csv").open()))
+        rows = list(csv.DictReader((self.dir / "claims.csv").read_text().splitlines()))
         self.assertEqual([(c["figure"], c["id"], c["model"], c["verdict"]) for c in claims],
                          [(r["figure"], r["id"], r["model"], r["verdict"]) for r in rows])
         self.assertEqual([c["value"] for c in claims], [float(r["value"]) for r in rows])
