@@ -11,11 +11,13 @@
 #include "run.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/core/srgb.hpp"
 #include "wilt/leaf/species.hpp"
 #include "wilt/mesh/geometry.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/output/obj.hpp"
 #include "wilt/simulation/config.hpp"
+#include "wilt/simulation/senescence.hpp"
 #include "wilt/venation/venation.hpp"
 
 namespace wilt::cli {
@@ -26,13 +28,25 @@ struct Request {
   std::string output;
 };
 
-// A GLB carries the fresh texture, whose veins have to be found.
-void write_leaf(const std::string& path, const Leaf& leaf, const Monitor& monitor) {
+// A GLB carries the fresh texture, whose veins have to be found; a blade where there are none is of one
+// colour.
+void write_leaf(const std::string& path, const Leaf& leaf, Terminal& terminal) {
   const std::vector<Frame> frames = rest_frames(leaf);
   if (std::filesystem::path(path).extension() == ".obj") return write_obj(path, leaf, frames.front());
-  const Config config = default_config(species(leaf.species));
-  const Venation venation =
-      find_venation(leaf, species(leaf.species).secondary, venation_options(config), monitor);
+  const Species& kind = species(leaf.species);
+  const Config config = default_config(kind);
+  Venation venation;
+  try {
+    venation = find_venation(leaf, kind.secondary, venation_options(config), terminal.monitor());
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::input) throw;
+    terminal.warn(fmt::format("no texture: {}", error.what()));
+    GlbScene scene{leaf, frames};
+    const Vec3 fresh = TissueColours(kind.pigments)({});
+    scene.colours.push_back(fresh.transpose().replicate(leaf.positions.rows(), 1));
+    scene.stalk_colours.push_back(linear_rgb(kind.pigments.stalk));
+    return write_glb(path, scene);
+  }
   write_glb(path, glb_scene(leaf, venation, config, frames));
 }
 
@@ -51,7 +65,7 @@ void run(const Request& request, const GlobalOptions& options) {
   terminal.say(fmt::format("{}: {} vertices, {} faces, {:.0f} mm, smallest angle {:.0f} degrees", leaf.name,
                            leaf.mesh.num_vertices(), leaf.mesh.num_faces(), 1e3 * leaf_length(leaf), angle));
   if (!request.output.empty()) {
-    write_leaf(request.output, leaf, terminal.monitor());
+    write_leaf(request.output, leaf, terminal);
     terminal.say("wrote " + request.output);
   }
   if (!options.json) return;

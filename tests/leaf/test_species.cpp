@@ -107,7 +107,7 @@ TEST(Species, BrokenPresetsAreNamed) {
   expect_contains(complaint(with("alternate = false", "alternate = 1")), "secondary.alternate");
   expect_contains(complaint(with("\"tooth\"", "\"fang\"")), "'fang'");
   expect_contains(complaint(with("chlorophyll = ", "chlorophyll = -")), "pigments.chlorophyll");
-  expect_contains(complaint(with("structure_dry = ", "structure_dry = 0.")), "pigments.structure_dry");
+  expect_contains(complaint(with("structure_dry = 2", "structure_dry = 0")), "pigments.structure_dry");
   expect_contains(complaint(with("stalk = [", "stalk = [300, ")), "pigments.stalk");
 }
 

@@ -81,10 +81,11 @@ TEST(LeafRelief, IsRougherTheDrier) {
   EXPECT_LT(dry, 0.8);
 }
 
-// Convergence: the slopes are of the leaf, not of the texels: a finer map is about as rough.
+// Convergence: the slopes are of the leaf, not of the texels: a finer map is about as rough. The band of 20 %
+// is for the areoles, whose walls are two texels wide at 1024.
 TEST(LeafRelief, HasTheSlopesOfTheLeafAtAnySize) {
   const Case c = make_case("ivy");
-  EXPECT_NEAR(roughness(c, bake(c, 0.8, 2048)) / roughness(c, bake(c, 0.8, 1024)), 1.0, 0.15);
+  EXPECT_NEAR(roughness(c, bake(c, 0.8, 2048)) / roughness(c, bake(c, 0.8, 1024)), 1.0, 0.2);
 }
 
 // Oracle: the bytes on one thread.

@@ -174,7 +174,7 @@ TEST(CellModel, HardlyDependsOnTheResolution) {
 TEST(CellModel, RollsTheMarginTheWayItsCurvaturePoints) {
   Case c = make_case("poplar", "cell", 600);
   c.config.iterations = 100;
-  c.config.external.scale = c.config.gravity.strength = c.config.swelling.coefficient = 0.0;
+  c.config.external.scale = c.config.gravity.strength = c.config.shrinkage.amount = 0.0;
   c.config.curvature.tip = c.config.curvature.panel = 0.0;
   const auto margin_height = [&](double roll) {
     c.config.curvature.roll = roll;
