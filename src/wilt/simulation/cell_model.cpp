@@ -118,7 +118,8 @@ CellModel::CellModel(const ModelInput& input)
   fold_weight_ = fold_weights(input, fields.folds);
   fresh_bending_ = bending_stiffness(input, hinges_, fields.grain);
   // The two faces differ in one and the same swelling: without it there is no curvature either.
-  drying_angles_ = input.config.swelling.coefficient * curvature_angles(hinges_, input.rest, fields.curvature);
+  drying_angles_ =
+      input.config.swelling.coefficient * curvature_angles(hinges_, input.rest, fields.curvature);
   add_terms(input, rest_lengths(input.leaf.mesh, input.rest));
 }
 
