@@ -107,7 +107,7 @@ int run(int argc, char** argv) {
   } catch (const Error& error) {
     return fail(error.what(), error.code());
   } catch (const std::bad_alloc&) {
-    return fail("out of memory; try fewer --vertices", ErrorCode::simulation);
+    return fail("out of memory; try fewer --vertices or a smaller --size", ErrorCode::simulation);
   } catch (const std::exception& error) {
     return fail(error.what(), ErrorCode::simulation);
   }

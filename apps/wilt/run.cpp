@@ -1,10 +1,12 @@
 #include "run.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <chrono>
 
 #include "wilt/core/error.hpp"
+#include "wilt/output/file.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/output/image_codec.hpp"
 #include "wilt/output/obj.hpp"
@@ -19,12 +21,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::string lower_extension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
 }
 
 }  // namespace
@@ -53,7 +49,7 @@ WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& 
 }
 
 void check_result_path(const std::string& path) {
-  const std::string extension = lower_extension(path);
+  const std::string extension = extension_of(path);
   if (extension != ".glb" && extension != ".obj" && !is_picture_path(path))
     throw Error(
         ErrorCode::configuration,
@@ -64,14 +60,19 @@ void check_result_path(const std::string& path) {
 }
 
 void check_writable(const std::string& path) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  const auto refuse = [&path](const std::string& reason) {
+    throw Error(ErrorCode::output, fmt::format("cannot write '{}': {}", path, reason));
+  };
+  if (std::filesystem::is_directory(path)) refuse("it is a folder; name a file in it");
+  const std::string folder = std::filesystem::path(path).parent_path().string();
   if (!folder.empty() && !std::filesystem::is_directory(folder))
-    throw Error(ErrorCode::output, fmt::format("cannot write '{}': there is no folder '{}'; create it first",
-                                               path, folder.string()));
+    refuse(fmt::format("there is no folder '{}'; create it first", folder));
+  if (!std::filesystem::exists(path) && ::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)
+    refuse("you may not write into its folder");
 }
 
 void write_result(const std::string& path, const WitheredLeaf& withered, Terminal& terminal) {
-  const std::string extension = lower_extension(path);
+  const std::string extension = extension_of(path);
   if (extension == ".glb") {
     GlbOptions options;
     options.seconds = withered.config.clip.seconds;

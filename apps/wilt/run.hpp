@@ -45,7 +45,7 @@ GlbFile result_file(const WitheredLeaf& withered);
 /// A picture of a frame, lying on a table.
 Image picture_of(const GlbFile& file, int frame, int width, int height, Terminal& terminal);
 
-/// Throws Error{output} unless the folder of `path` exists.
+/// Throws Error{output} unless `path` can become a file: its folder exists and may be written to.
 void check_writable(const std::string& path);
 
 }  // namespace wilt::cli

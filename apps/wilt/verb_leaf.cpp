@@ -14,6 +14,7 @@
 #include "wilt/core/srgb.hpp"
 #include "wilt/leaf/species.hpp"
 #include "wilt/mesh/geometry.hpp"
+#include "wilt/output/file.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/output/obj.hpp"
 #include "wilt/simulation/config.hpp"
@@ -32,7 +33,7 @@ struct Request {
 // colour.
 void write_leaf(const std::string& path, const Leaf& leaf, Terminal& terminal) {
   const std::vector<Frame> frames = rest_frames(leaf);
-  if (std::filesystem::path(path).extension() == ".obj") return write_obj(path, leaf, frames.front());
+  if (extension_of(path) == ".obj") return write_obj(path, leaf, frames.front());
   const Species& kind = species(leaf.species);
   const Config config = default_config(kind);
   Venation venation;
@@ -51,7 +52,7 @@ void write_leaf(const std::string& path, const Leaf& leaf, Terminal& terminal) {
 }
 
 void run(const Request& request, const GlobalOptions& options) {
-  const std::string extension = std::filesystem::path(request.output).extension().string();
+  const std::string extension = extension_of(request.output);
   if (!request.output.empty() && extension != ".glb" && extension != ".obj")
     throw Error(ErrorCode::configuration,
                 fmt::format("cannot write '{}': a leaf is .glb or .obj", request.output));

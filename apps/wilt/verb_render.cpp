@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 
@@ -23,12 +24,11 @@
 namespace wilt::cli {
 namespace {
 
-constexpr int kSheetFrames = 12;
+constexpr int kSheetFrames = 12, kFps = 25;
 
 struct Request {
   std::string file, output, size, view, sun;
-  std::optional<int> frame, samples, columns, frames;
-  int fps = 25;
+  std::optional<int> frame, samples, columns, frames, fps;
   int threads = 0;
   std::uint64_t seed = 1;
 };
@@ -45,7 +45,6 @@ Kind kind_of(const Request& request) {
                     request.output));
   const std::string stem = path.stem().string();
   const bool named = stem.size() >= 5 && stem.compare(stem.size() - 5, 5, "sheet") == 0;
-  if (request.frame) return Kind::picture;
   return named || request.columns || request.frames ? Kind::sheet : Kind::picture;
 }
 
@@ -74,6 +73,20 @@ void set_size(PictureOptions& picture, const Request& request, Kind kind) {
   picture.width = int(size.x()), picture.height = int(size.y());
 }
 
+// An option that means nothing for what is made is a mistake of the caller.
+void check_options(const Request& request, Kind kind) {
+  static constexpr const char* kMade[] = {"a picture", "a contact sheet", "a film"};
+  const auto refuse_unless = [&](bool fits, bool given, const char* option) {
+    if (given && !fits)
+      throw Error(ErrorCode::configuration,
+                  fmt::format("{} does not go with {} ('{}')", option, kMade[int(kind)], request.output));
+  };
+  refuse_unless(kind == Kind::picture, request.frame.has_value(), "--frame");
+  refuse_unless(kind == Kind::sheet, request.columns.has_value(), "--columns");
+  refuse_unless(kind == Kind::sheet, request.frames.has_value(), "--frames");
+  refuse_unless(kind == Kind::movie, request.fps.has_value(), "--fps");
+}
+
 PictureOptions picture_options(const Request& request, Kind kind) {
   PictureOptions picture;
   set_size(picture, request, kind);
@@ -82,6 +95,9 @@ PictureOptions picture_options(const Request& request, Kind kind) {
   constexpr double kDegree = std::numbers::pi / 180.0;
   if (!request.view.empty()) {
     const Vec2 view = parse_pair(request.view, ',', "--view", "-75,45");
+    if (std::abs(view.y()) > 90.0)
+      throw Error(ErrorCode::configuration,
+                  fmt::format("--view is {}; the second angle is -90 to 90 degrees", request.view));
     picture.view.azimuth = view.x() * kDegree;
     picture.view.elevation = view.y() * kDegree;
   }
@@ -146,17 +162,19 @@ void movie(const GlbFile& file, const LeafScene& leaf, PictureOptions picture, c
   if (file.times.size() < 2)
     throw Error(ErrorCode::input,
                 fmt::format("'{}' does not move; a film needs two frames or more", request.file));
-  MovieWriter writer(request.output, picture.width, picture.height, request.fps);
+  const int fps = request.fps.value_or(kFps);
+  MovieWriter writer(request.output, picture.width, picture.height, fps);
   picture.camera = camera_for(leaf, evenly(leaf.frames(), leaf.frames() - 1), picture);
-  const int count = 1 + static_cast<int>(std::lround(file.times.back() * request.fps));
+  const int count = 1 + static_cast<int>(std::lround(file.times.back() * fps));
   for (int i = 0; i < count; ++i)
-    writer.add(render(leaf.at(frame_at(file, double(i) / request.fps)), picture, part_of(monitor, i, count)));
+    writer.add(render(leaf.at(frame_at(file, double(i) / fps)), picture, part_of(monitor, i, count)));
   writer.finish();
 }
 
 void run(const Request& request, const GlobalOptions& options) {
   const Kind kind = kind_of(request);
-  PictureOptions picture = picture_options(request, kind);
+  check_options(request, kind);
+  const PictureOptions picture = picture_options(request, kind);
   picture.validate();
   check_writable(request.output);
   const ThreadLimit limit(request.threads);
@@ -176,6 +194,13 @@ void run(const Request& request, const GlobalOptions& options) {
     write_image(request.output, render(leaf.at(frame), picture, terminal.monitor()));
   }
   terminal.say("wrote " + request.output);
+  if (options.json) {
+    const nlohmann::ordered_json json = {{"file", request.output},
+                                         {"kind", kind == Kind::movie   ? "film"
+                                                  : kind == Kind::sheet ? "sheet"
+                                                                        : "picture"}};
+    fmt::print("{}\n", json.dump(2));
+  }
 }
 
 }  // namespace
@@ -218,7 +243,9 @@ void add_render(CLI::App& app, const GlobalOptions& options) {
                    "Camera, degrees: around (-90 looks to the apex) and above (-75,45)")
       ->type_name("A,E");
   verb->add_option("--sun", request->sun, "Sun, degrees: around and above (146,38)")->type_name("A,E");
-  verb->add_option("--seed", request->seed, "Of the samples (1)")->type_name("N");
+  verb->add_option("--seed", request->seed, "Of the samples (1)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
   verb->add_option("--threads", request->threads, "At most so many (all)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");

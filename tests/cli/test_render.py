@@ -1,4 +1,5 @@
 """wilt render: what the files hold, and what is said when they cannot be made."""
+import json
 import os
 import pathlib
 import shutil
@@ -51,6 +52,14 @@ class Render(unittest.TestCase):
         self.assertEqual(last.read_bytes(), self.render("four.png", "--frame", "4").read_bytes())
         self.assertNotEqual(last.read_bytes(), self.render("first.png", "--frame", "0").read_bytes())
 
+    def test_the_defaults_are_those_that_help_names(self):
+        plain = self.render("plain.png").read_bytes()
+        self.assertEqual(plain, self.render("said.png", "--view=-75,45").read_bytes())
+
+    def test_json_says_what_was_made(self):
+        done = self.run_wilt("poplar.glb", "-o", "UPPER.PNG", *SMALL, "--json")
+        self.assertEqual(json.loads(done.stdout), {"file": "UPPER.PNG", "kind": "picture"})
+
     def test_the_bytes_do_not_depend_on_threads_but_on_view_and_sun(self):
         one = self.render("one.png", "--threads", "1").read_bytes()
         self.assertEqual(one, self.render("two.png", "--threads", "2").read_bytes())
@@ -76,6 +85,12 @@ class Render(unittest.TestCase):
         self.assertIn("1920x1080", self.refused(2, "poplar.glb", "-o", "x.png", "--size", "big"))
         self.assertIn("16 to 16384", self.refused(2, "poplar.glb", "-o", "x.png", "--size", "8x9"))
         self.assertIn("--view takes two numbers", self.refused(2, "poplar.glb", "-o", "x.png", "--view", "top"))
+        self.assertIn("--columns does not go with a film", self.refused(2, "poplar.glb", "-o", "x.mp4", "--columns", "3"))
+        self.assertIn("--frame does not go with a contact sheet", self.refused(2, "poplar.glb", "-o", "sheet.png", "--frame", "1"))
+        self.assertIn("--fps does not go with a picture", self.refused(2, "poplar.glb", "-o", "x.png", "--fps", "9"))
+        self.assertIn("-90 to 90 degrees", self.refused(2, "poplar.glb", "-o", "x.png", "--view", "0,91"))
+        (self.folder / "folder.png").mkdir()
+        self.assertIn("it is a folder", self.refused(5, "poplar.glb", "-o", "folder.png"))
         self.assertIn("absent.glb", self.refused(3, "absent.glb", "-o", "x.png"))
         self.assertIn("there is no folder", self.refused(5, "poplar.glb", "-o", "absent/x.png"))
         self.assertFalse((self.folder / "x.png").exists())

@@ -6,6 +6,7 @@
 #include "wilt/output/gltf.hpp"
 #include "wilt/output/image_codec.hpp"
 #include "wilt/simulation/senescence.hpp"
+#include "wilt/simulation/uv_raster.hpp"
 #include "wilt/venation/venation.hpp"
 
 namespace wilt {
@@ -62,6 +63,25 @@ TEST(GlbSceneOfARun, CarriesItsTextureThroughTheFile) {
   const GlbFile file = parse_glb(glb_bytes(scene), "grape");
   EXPECT_EQ(file.texture, scene.texture);
   const Image picture = decode_image(file.texture);
+  // Texture x COLOR_0 is the colour of each frame, on the whole: veins and spots move the mean by some
+  // percent.
+  const Pigmentation& pigments = species("grape").pigments;
+  const auto raster = uv_raster(run.leaf.skin, 128);
+  ASSERT_TRUE(raster);
+  Vec3 texture = Vec3::Zero();
+  int covered = 0;
+  for (std::size_t i = 0; i < raster->face.size(); ++i) {
+    if (raster->face[i] < 0) continue;
+    texture += linear_rgb({picture.rgb[3 * i], picture.rgb[3 * i + 1], picture.rgb[3 * i + 2]});
+    ++covered;
+  }
+  const Points3 last = leaf_colours(senescence_pattern(run.leaf, run.venation, pigments),
+                                    TissueColours(pigments), run.frames.back().dryness);
+  const Vec3 factor = scene.colours.back().colwise().mean().transpose();
+  for (int c = 0; c < 3; ++c) {
+    const double shown = texture[c] / covered * factor[c], state = last.col(c).mean();
+    EXPECT_NEAR(shown / state, 1.0, 0.25) << c;
+  }
   EXPECT_EQ(picture.width, 128);
   EXPECT_EQ(picture.height, 128);
   ASSERT_EQ(file.meshes.front().colours.size(), 3u);

@@ -258,6 +258,33 @@ TEST(Glb, RefusesWhatItDidNotWrite) {
       std::string::npos);
 }
 
+// Oracle: negative; what a reader of the frames would stumble over, and other files that it would open.
+TEST(Glb, RefusesWhatCannotBeShown) {
+  const test::Sample sample;
+  const std::string bytes = glb_bytes(sample.scene());
+  const auto says = [&](const char* part, const std::function<void(Json&)>& change) {
+    const std::string message = refusal(changed(bytes, change));
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  says("other files", [](Json& j) { j["buffers"][0]["uri"] = "/dev/zero"; });
+  says("other files", [](Json& j) { j["images"][0]["uri"] = "leaf.png"; });
+  says("nested deeper", [](Json& j) {
+    Json deep = 1;
+    for (int i = 0; i < 100; ++i) deep = Json::array({deep});
+    j["asset"]["extras"]["wilt"]["config"] = deep;
+  });
+  says("outside 0 to 1", [](Json& j) { j["asset"]["extras"]["wilt"]["dryness"][1] = 2.0; });
+  says("barycentric", [](Json& j) { j["asset"]["extras"]["wilt"]["veins"][0]["barycentric"][0][0] = 1e30; });
+  says("morph targets have COLOR_0",
+       [](Json& j) { j["meshes"][0]["primitives"][0]["targets"][1].erase("COLOR_0"); });
+  says("is empty",
+       [](Json& j) { j["accessors"][j["meshes"][0]["primitives"][0]["indices"].get<int>()]["count"] = 0; });
+  std::string unfinished = bytes;  // a value that is not a number
+  const std::size_t data = 20 + glb_json(bytes, "").size() + 8;
+  for (std::size_t i = 0; i < 4; ++i) unfinished[data + i] = '\xff';
+  EXPECT_NE(refusal(unfinished).find("not finite"), std::string::npos);
+}
+
 // Oracle: property. Whatever byte is changed, the reader returns a file or an Error{input}; the seed is
 // fixed.
 TEST(Glb, ReaderBearsDamage) {

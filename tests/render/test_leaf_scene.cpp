@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "output/sample_leaf.hpp"
+#include "wilt/core/error.hpp"
+#include "wilt/core/random.hpp"
 #include "wilt/output/image_codec.hpp"
 #include "wilt/render/leaf_scene.hpp"
 
@@ -74,6 +76,27 @@ TEST(LeafScene, PutsTheMapsOnTheBlade) {
   GlbFile broken = file;
   broken.texture = "no picture";
   EXPECT_THROW(LeafScene{broken}, Error);
+}
+
+// Property: whatever numbers a file holds, there is a scene or an Error; the seed is fixed.
+TEST(LeafScene, BearsDamagedFiles) {
+  const test::Sample sample;
+  const std::string bytes = glb_bytes(sample.scene());
+  Random random(11, "damage");
+  int shown = 0;
+  for (int round = 0; round < 200; ++round) {
+    std::string damaged = bytes;
+    for (int i = 0; i < 3; ++i)
+      damaged[bytes.size() / 2 + random.index(int(bytes.size() / 2))] = char(random.index(256));
+    try {
+      const GlbFile file = parse_glb(damaged, "damaged");
+      validate(LeafScene(file).at(3.5));
+      ++shown;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::input) << round;
+    }
+  }
+  EXPECT_GT(shown, 20);
 }
 
 }  // namespace

@@ -37,6 +37,18 @@ TEST(Light, ALeafThatAbsorbsNothingIsTheSkyEvenWhenItIsABowl) {
   }
 }
 
+// Conservation: a white leaf that would reflect all and transmit all is cut back to what arrives.
+TEST(Light, AWhiteLeafGivesNoMoreThanTheSky) {
+  PictureOptions options = dark_studio();
+  options.bounces = 4;
+  options.lighting.sky = test::uniform_sky(Vec3::Constant(0.8));
+  Scene scene{{test::paraboloid(12, 0.5, Vec3::Ones(), true)}};
+  scene.surfaces[0].finish = test::matt(1.0);
+  const Radiance picture = render_radiance(scene, options);
+  for (int y = 2; y < 14; ++y)
+    for (int x = 2; x < 14; ++x) EXPECT_NEAR(at(picture, x, y).mean(), 0.8, 1e-9);
+}
+
 // Conservation: the coat moves light, it makes none; single scattering of GGX loses a few per cent when
 // rough.
 TEST(Light, TheCoatMakesNoLight) {
@@ -186,7 +198,7 @@ TEST(SheetOptics, GreyStaysGreyAndNothingIsGained) {
   const SheetOptics grey = sheet_optics(Vec3::Constant(0.5), 1.0);
   EXPECT_NEAR((grey.under - Vec3::Constant(0.5)).norm(), 0.0, 1e-15);
   EXPECT_NEAR((grey.transmittance - Vec3::Constant(0.5)).norm(), 0.0, 1e-15);
-  // Property: the sum never exceeds what arrives after shading_point's limit; the raw colours stay in [0, 1].
+  // Property: colours stay in [0, 1].
   Random random(7, "sheet_optics");
   for (int i = 0; i < 200; ++i) {
     const Vec3 colour(random.uniform(), random.uniform(), random.uniform());

@@ -51,6 +51,18 @@ TEST(Claims, DoNotComeOutWithoutANumber) {
   EXPECT_EQ(verdict(claim_with(std::nullopt, {Kind::at_least, 0.0})), Verdict::not_run);
 }
 
+// Oracle: only the model whose run broke off loses its numbers; a claim that was not run stays so.
+TEST(Claims, LoseTheirNumbersWithABrokenRun) {
+  std::vector<Claim> claims(3, claim_with(1.0, {Kind::at_least, 0.0}));
+  claims[1].model = "paper";
+  claims[2].value = std::nullopt;
+  withhold(claims, {"cell"});
+  EXPECT_EQ(verdict(claims[0]), Verdict::does_not);
+  EXPECT_NE(reason(claims[0]).find("stopped early"), std::string::npos);
+  EXPECT_EQ(verdict(claims[1]), Verdict::comes_out);
+  EXPECT_EQ(verdict(claims[2]), Verdict::not_run);
+}
+
 TEST(Claims, GiveTheNumberAndTheBoundAsTheReason) {
   const std::string fails = reason(claim_with(0.5, {Kind::at_least, 1.0}));
   EXPECT_EQ(fails, "a number is 0.5, but should be at least 1");

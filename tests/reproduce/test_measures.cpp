@@ -19,6 +19,7 @@ TEST(RankCorrelation, IsSpearmans) {
   EXPECT_DOUBLE_EQ(rank_correlation({1, 2, 3, 4}, {4, 3, 2, 1}), -1.0);
   EXPECT_DOUBLE_EQ(rank_correlation({1, 2, 3, 4, 5}, {1, 2, 4, 5, 3}), 1.0 - 6.0 * 6.0 / (5.0 * 24.0));
   EXPECT_DOUBLE_EQ(rank_correlation({1, 2, 3}, {7, 7, 7}), 0.0);
+  EXPECT_TRUE(std::isnan(rank_correlation({1, 2, 3}, {1, 2, std::nan("")})));  // a run that broke off
   EXPECT_NEAR(rank_correlation({1, 2, 3, 4}, {1, 2, 2, 4}), 3.0 / std::sqrt(10.0),
               1e-15);  // ties: 4.5/sqrt(5*4.5)
 }

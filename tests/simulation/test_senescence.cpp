@@ -91,17 +91,16 @@ TEST_P(EveryPigmentation, BeginsAtTheMarginAndBetweenTheVeins) {
   }
   ASSERT_GT(std::min(margins, middles), 5);
   EXPECT_GT(margin / margins, middle / middles + 0.05);
-  if (ons > 5 && betweens > 5) {
-    EXPECT_GT(between / betweens, on / ons + 0.02);
-  }
+  if (std::string(GetParam()) == "willow") return;  // too narrow to have tissue away from veins and margin
+  ASSERT_GT(std::min(ons, betweens), 5);
+  EXPECT_GT(between / betweens, on / ons + 0.02);
 }
 
-// Oracle: the same state at another iteration, and another leaf frame: only dryness and pattern count.
-TEST(Senescence, DependsOnStateAlone) {
+// Oracle: a fresh leaf is of one colour; another individual ages elsewhere.
+TEST(Senescence, IsUniformWhileFreshAndVariesWithTheIndividual) {
   const Case c = make_case("ivy");
   const TissueColours colours(c.pigments);
   const Eigen::VectorXd dryness = Eigen::VectorXd::LinSpaced(c.leaf.positions.rows(), 0.0, 1.0);
-  EXPECT_EQ(leaf_colours(c.pattern, colours, dryness), leaf_colours(c.pattern, colours, dryness));
   const Points3 fresh = leaf_colours(c.pattern, colours, Eigen::VectorXd::Zero(dryness.size()));
   for (int v = 1; v < fresh.rows(); ++v) EXPECT_LT((fresh.row(v) - fresh.row(0)).norm(), 1e-12);
   Leaf other = c.leaf;

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -154,6 +155,12 @@ void write_file(const std::string& path, std::string_view bytes) {
   if (descriptor < 0) fail(path, errno);
   ::close(descriptor);
   replace_file(path, std::filesystem::canonical(path).string(), status.st_mode & 07777, bytes);
+}
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
 }
 
 std::string read_file(const std::string& path) {

@@ -15,6 +15,9 @@ namespace wilt {
 /// then no temporary file is left.
 void write_file(const std::string& path, std::string_view bytes);
 
+/// The end of a file's name in lower case, with its dot: ".glb"; empty when it has none.
+std::string extension_of(const std::string& path);
+
 /// All bytes of the file `path`. Throws Error{input} with the path and the reason.
 std::string read_file(const std::string& path);
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Values = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr int kDeepest = 64;                  // levels of JSON
+constexpr double kLongestClip = 24 * 3600.0;  // seconds
 
 [[noreturn]] void refuse(const std::string& reason) {
   throw Error(ErrorCode::input, reason + "; give a .glb that wilt wrote");
@@ -32,9 +36,11 @@ class Model {
     return items[static_cast<std::size_t>(index)];
   }
 
-  /// float32 rows of `columns` numbers.
+  /// float32 rows of `columns` finite numbers.
   Values floats(int accessor, int columns) const {
     const std::vector<float> values = raw<float>(accessor, TINYGLTF_COMPONENT_TYPE_FLOAT, columns);
+    for (const float value : values)
+      if (!std::isfinite(value)) refuse(fmt::format("accessor {} has a value that is not finite", accessor));
     return Eigen::Map<const Eigen::Matrix<float, -1, -1, Eigen::RowMajor>>(
                values.data(), static_cast<int>(values.size()) / columns, columns)
         .cast<double>();
@@ -79,7 +85,7 @@ int attribute(const std::map<std::string, int>& attributes, const std::string& n
   return found == attributes.end() ? -1 : found->second;
 }
 
-// Base + target for every morph target; the base alone where there are none that have the attribute.
+// Base + target for every morph target; the base alone where none has the attribute. All have it or none.
 std::vector<Points3> morphed(const Model& model, const tinygltf::Primitive& primitive,
                              const std::string& name) {
   const Points3 base = model.floats(attribute(primitive.attributes, name), 3);
@@ -91,6 +97,8 @@ std::vector<Points3> morphed(const Model& model, const tinygltf::Primitive& prim
     if (difference.rows() != base.rows()) refuse("a morph target differs in size from its mesh");
     frames.push_back(base + difference);
   }
+  if (!frames.empty() && frames.size() != primitive.targets.size())
+    refuse(fmt::format("{} of {} morph targets have {}", frames.size(), primitive.targets.size(), name));
   if (frames.empty()) frames.push_back(base);
   return frames;
 }
@@ -108,9 +116,10 @@ GlbMesh read_mesh(const Model& model, const tinygltf::Mesh& mesh) {
   if (const int water = attribute(primitive.attributes, "_WATER"); water >= 0)
     result.water = model.floats(water, 1);
   result.faces = model.triangles(primitive.indices, vertices);
+  if (vertices == 0 || result.faces.rows() == 0) refuse(fmt::format("mesh '{}' is empty", mesh.name));
   const auto fits = [vertices](Eigen::Index rows) { return rows == 0 || rows == vertices; };
   if (result.normals.front().rows() != vertices || !fits(result.uv.rows()) || !fits(result.water.size()) ||
-      (!result.colours.empty() && !fits(result.colours.front().rows())) ||
+      (!result.colours.empty() && result.colours.front().rows() != vertices) ||
       result.normals.size() != result.frames.size())
     refuse(fmt::format("the attributes of mesh '{}' differ in size", mesh.name));
   return result;
@@ -119,8 +128,12 @@ GlbMesh read_mesh(const Model& model, const tinygltf::Mesh& mesh) {
 std::vector<double> read_times(const Model& model, const tinygltf::Model& gltf) {
   if (gltf.animations.empty()) return {0.0};
   const tinygltf::AnimationSampler& sampler = Model::at(gltf.animations.front().samplers, 0, "sampler");
-  const Values times = model.floats(sampler.input, 1);
-  return {times.data(), times.data() + times.size()};
+  const Values values = model.floats(sampler.input, 1);
+  const std::vector<double> times(values.data(), values.data() + values.size());
+  for (std::size_t k = 0; k < times.size(); ++k)
+    if (k == 0 ? times[k] != 0.0 : !(times[k] > times[k - 1] && times[k] <= kLongestClip))
+      refuse(fmt::format("key time {} is {} s; times begin at 0, ascend and end within a day", k, times[k]));
+  return times;
 }
 
 // The bytes of the image behind a texture, or nothing.
@@ -151,12 +164,16 @@ void read_extras(const Json& document, GlbFile& file) {
   file.iterations = extras.at("frames").get<std::vector<int>>();
   file.dryness = extras.at("dryness").get<std::vector<double>>();
   const int faces = static_cast<int>(file.meshes.front().faces.rows());
+  for (const double value : file.dryness)
+    if (!(value >= 0.0 && value <= 1.0)) refuse(fmt::format("a dryness is {}, outside 0 to 1", value));
   for (const Json& vein : extras.at("veins")) {
     GlbVein read{vein.at("order").get<int>(), points_from(vein.at("positions")),
                  vein.at("faces").get<std::vector<int>>(), points_from(vein.at("barycentric"))};
     const auto points = static_cast<std::size_t>(read.positions.rows());
     if (read.faces.size() != points || static_cast<std::size_t>(read.barycentric.rows()) != points)
       refuse("the lists of a vein differ in length");
+    if (!(read.barycentric.array() >= -1e-6).all() || !(read.barycentric.array() <= 1.0 + 1e-6).all())
+      refuse("a vein's barycentric coordinates lie outside 0 to 1");
     for (const int face : read.faces) {
       if (face < 0 || face >= faces) refuse(fmt::format("a vein lies in face {} of {}", face, faces));
     }
@@ -168,6 +185,13 @@ void read_extras(const Json& document, GlbFile& file) {
 bool accept_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*,
                   int, void*) {
   return true;
+}
+
+// A GLB that wilt wrote has everything inside; no other file is opened for it.
+void refuse_other_files(const Json& document) {
+  for (const char* kind : {"buffers", "images"})
+    for (const Json& item : document.value(kind, Json::array()))
+      if (item.is_object() && item.contains("uri")) refuse(fmt::format("its {} lie in other files", kind));
 }
 
 tinygltf::Model load(std::string_view bytes) {
@@ -184,7 +208,11 @@ tinygltf::Model load(std::string_view bytes) {
 }
 
 GlbFile read_all(std::string_view bytes, std::string_view json) {
-  const Json document = Json::parse(json);
+  const Json document = Json::parse(json, [](int depth, Json::parse_event_t, const Json&) {
+    if (depth > kDeepest) refuse(fmt::format("its JSON is nested deeper than {}", kDeepest));
+    return true;
+  });
+  refuse_other_files(document);
   if (!document.contains("/asset/extras/wilt"_json_pointer)) refuse("asset.extras.wilt is missing");
   const tinygltf::Model gltf = load(bytes);
   const Model model(gltf);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <limits>
 
 #include "wilt/core/check.hpp"
@@ -46,10 +45,6 @@ void check_size(const Image& image) {
                                              image.width, image.height, format));
 }
 
-std::string extension_of(const std::string& path) {
-  return std::filesystem::path(path).extension().string();
-}
-
 }  // namespace
 
 std::string encode_jpeg(const Image& image, int quality) {
@@ -64,7 +59,9 @@ std::string encode_jpeg(const Image& image, int quality) {
 std::string encode_png(const Image& image) {
   check_size(image);
   std::string bytes;
-  if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.rgb.data(),
+  // The encoder counts bytes in an int.
+  if ((3 * std::int64_t(image.width) + 1) * image.height > std::numeric_limits<int>::max() ||
+      !stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.rgb.data(),
                               3 * image.width))
     cannot_encode(image, "PNG");
   return bytes;

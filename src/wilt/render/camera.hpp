@@ -15,10 +15,11 @@ struct Camera {
 
 /// The direction a picture is taken from.
 struct View {
-  double azimuth = -1.30;       ///< of the camera about Z, radians; -pi/2 looks along +y, to the apex
-  double elevation = 0.78;      ///< above the horizon, radians, in [-pi/2, pi/2]
-  double field_of_view = 0.25;  ///< of the picture's height, radians, in (0, 2)
-  double margin = 0.09;         ///< free on each side, as a share of the picture, in [0, 0.45]
+  double azimuth =
+      -1.3089969389957472;  ///< of the camera about Z, radians; -pi/2 looks along +y, to the apex
+  double elevation = 0.7853981633974483;  ///< above the horizon, radians, in [-pi/2, pi/2]
+  double field_of_view = 0.25;            ///< of the picture's height, radians, in (0, 2)
+  double margin = 0.09;                   ///< free on each side, as a share of the picture, in [0, 0.45]
 };
 
 /// The closest camera along `view` that sees every point (#P x 3, P >= 1) within the margin; exact.

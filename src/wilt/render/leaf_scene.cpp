@@ -107,7 +107,6 @@ Surface LeafScene::surface(const GlbMesh& mesh, double frame) const {
   Surface result;
   result.positions = (between(mesh.frames, frame).rowwise() - base.transpose()) * turn.transpose();
   result.normals = between(mesh.normals, frame) * turn.transpose();
-  result.normals.rowwise().normalize();
   result.faces = mesh.faces;
   if (mesh.colours.empty()) {
     result.colours = Points3::Ones(result.positions.rows(), 3);
@@ -177,7 +176,7 @@ Scene LeafScene::at(double frame) const {
   int levels = 0;
   while (levels < kMaxLevels && (blade.faces.rows() << (2 * (levels + 1))) <= kRefinedFaces) ++levels;
   refine(blade, levels);
-  scene.surfaces.push_back(rim(blade));
+  if (Surface edge = rim(blade); edge.faces.rows() > 0) scene.surfaces.push_back(std::move(edge));
   double lowest = 0.0;
   for (const Surface& part : scene.surfaces) {
     if (part.positions.rows() > 0) lowest = std::min(lowest, part.positions.col(2).minCoeff());

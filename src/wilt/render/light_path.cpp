@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "wilt/core/smooth_step.hpp"
 #include "wilt/render/sampling.hpp"
 #include "wilt/render/tone.hpp"
 
@@ -37,12 +38,6 @@ double coat_reflection(const Vec3& n, const Vec3& view, const Vec3& light, doubl
   const double d = a2 / (std::numbers::pi * q * q);
   const double g = 1.0 / (1.0 + smith_lambda(nl, alpha) + smith_lambda(nv, alpha));
   return d * g * fresnel(view.dot(h)) / (4.0 * nv);
-}
-
-// 0 below `a`, 1 above `b`, cubic between.
-double smooth_step(double a, double b, double x) {
-  const double t = std::clamp((x - a) / (b - a), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
 }
 
 double luminance(const Vec3& rgb) {

@@ -9,6 +9,7 @@
 #include <map>
 #include <vector>
 
+#include "wilt/core/check.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/output/file.hpp"
 
@@ -29,10 +30,6 @@ const std::map<std::string, std::vector<std::string>>& codecs() {
       {".gif", {"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse"}},
   };
   return kCodecs;
-}
-
-std::string extension_of(const std::string& path) {
-  return std::filesystem::path(path).extension().string();
 }
 
 /// A folder of its own that goes away with it.
@@ -62,14 +59,15 @@ class TemporaryFolder {
 
 class MovieWriter::Encoder {
  public:
-  Encoder(const std::string& path, int width, int height, int fps) : path_(path) {
+  Encoder(const std::string& path, int width, int height, int fps)
+      : path_(path), width_(width), height_(height) {
     const auto program = process::search_path("ffmpeg");
     if (program.empty())
-      throw Error(
-          ErrorCode::output,
-          "a film needs the program ffmpeg, which is not there; install it (Debian: apt-get install ffmpeg), "
-          "or write a sheet.png");
+      throw Error(ErrorCode::output,
+                  "a film needs the program ffmpeg, which is not there; install it (Debian: apt-get install "
+                  "ffmpeg), or write a sheet.png");
     file_ = (folder_.path() / ("film" + extension_of(path))).string();
+    errors_ = (folder_.path() / "errors").string();
     std::vector<std::string> arguments = {"-v",       "error",
                                           "-f",       "rawvideo",
                                           "-pix_fmt", "rgb24",
@@ -80,9 +78,12 @@ class MovieWriter::Encoder {
     arguments.insert(arguments.end(), codec.begin(), codec.end());
     arguments.insert(arguments.end(),
                      {"-fflags", "+bitexact", "-flags:v", "+bitexact", "-threads", "2", file_});
+    std::error_code failed;
+    child_ =
+        process::child(program, process::args(arguments),
+                       process::std_in<pictures_, process::std_err> boost::filesystem::path(errors_), failed);
+    if (failed) throw Error(ErrorCode::output, fmt::format("ffmpeg cannot be started: {}", failed.message()));
     previous_ = std::signal(SIGPIPE, SIG_IGN);  // a program that stopped is told by the stream
-    child_ = process::child(program, process::args(arguments),
-                            process::std_in<pictures_, process::std_err> errors_);
   }
 
   ~Encoder() {
@@ -94,6 +95,8 @@ class MovieWriter::Encoder {
   }
 
   void add(const Image& picture) {
+    WILT_CHECK(picture.width == width_ && picture.height == height_, picture.width, picture.height, width_,
+               height_);
     if (!pictures_.write(reinterpret_cast<const char*>(picture.rgb.data()),
                          std::streamsize(picture.rgb.size())))
       fail();
@@ -109,16 +112,17 @@ class MovieWriter::Encoder {
 
  private:
   [[noreturn]] void fail() {
-    std::string reason;
-    std::getline(errors_, reason);
+    pictures_.pipe().close();
+    child_.wait();
+    const std::string said = read_file(errors_), reason = said.substr(0, said.find('\n'));
     throw Error(ErrorCode::output, fmt::format("'{}': ffmpeg could not make the film{}{}", path_,
                                                reason.empty() ? "" : ": ", reason));
   }
 
-  std::string path_, file_;
+  std::string path_, file_, errors_;
+  int width_, height_;
   TemporaryFolder folder_;
   process::opstream pictures_;
-  process::ipstream errors_;
   process::child child_;
   void (*previous_)(int) = SIG_DFL;
 };

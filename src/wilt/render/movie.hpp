@@ -19,8 +19,8 @@ class MovieWriter {
   MovieWriter(const std::string& path, int width, int height, int fps);
   ~MovieWriter();
 
-  void add(const Image& picture);  ///< Throws Error{output} when ffmpeg stops.
-  void finish();                   ///< Throws Error{output} when ffmpeg fails or the file cannot be written.
+  void add(const Image& picture);  ///< of the size said; throws Error{output} when ffmpeg stops
+  void finish();                   ///< throws Error{output} when ffmpeg fails or the file cannot be written.
 
   /// Whether `path` ends as a film's does.
   static bool is_movie(const std::string& path);

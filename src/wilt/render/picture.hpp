@@ -16,12 +16,12 @@ namespace wilt {
 struct PictureOptions {
   int width = 960, height = 720;  ///< pixels, 1 to 16384
   int samples = 64;               ///< per pixel at most, 1 to 65536; multiples of 16 are best
-  double noise = 0.02;            ///< a pixel with a smaller relative error takes no more samples, 0 to 1
-  std::uint64_t seed = 1;         ///< of the samples
-  int bounces = 3;                ///< of light between surfaces, 1 to 16
+  double noise = 0.02;  ///< no more samples once a pixel's standard error is below noise (mean + 0.1), 0 to 1
+  std::uint64_t seed = 1;                ///< of the samples
+  int bounces = 3;                       ///< of light between surfaces, 1 to 16
   Vec3 background = {0.93, 0.92, 0.90};  ///< as shown: sRGB, 0 to 1; a lit ground has the same colour
   bool ground = true;                    ///< a plane that takes the shadows and fades into the background
-  std::optional<double> ground_height;   ///< metres; the scene's lowest point when not given
+  std::optional<double> ground_height;   ///< in the scene's unit; its lowest point when not given
   double exposure = 1.0;                 ///< factor on all light before the tone curve, > 0
   Lighting lighting;
   std::optional<Camera> camera;  ///< frame_camera(scene_points(scene), aspect, view) when not given

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <unordered_map>
 #include <utility>
 
@@ -110,7 +111,7 @@ class Refinement {
   }
 
   Vec3 on_margin(int a, int b, const Vec3& otherwise) const {
-    static const double kSharp = std::cos(40.0 * 3.14159265358979 / 180.0);
+    static const double kSharp = std::cos(40.0 * std::numbers::pi / 180.0);
     const int before = margin_.before[std::size_t(a)], after = margin_.after[std::size_t(b)];
     if (before < 0 || after < 0) return otherwise;
     const Vec3 p = at(before), q = at(a), r = at(b), s = at(after);

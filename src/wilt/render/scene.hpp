@@ -16,12 +16,12 @@ struct Finish {
   double relief = 1.0;         ///< strength of the normal map, in [0, 4]
 };
 
-/// A triangle mesh, Z up.
+/// A triangle mesh, Z up, in the scene's unit of length.
 ///
 /// A leaf is a thin sheet: it reflects and transmits, its underside (faces seen clockwise) is paler. A solid
 /// is opaque and has one colour on both sides.
 struct Surface {
-  Points3 positions;  ///< #V x 3, metres
+  Points3 positions;  ///< #V x 3
   Points3 normals;    ///< #V x 3, or empty: computed, area-weighted
   Faces faces;        ///< #F x 3
   Points3 colours;    ///< #V x 3, linear RGB diffuse reflectance of the upper side, in [0, 1]
@@ -38,9 +38,9 @@ struct Scene {
 
 /// A distant disc.
 struct Sun {
-  Vec3 direction = {-0.62, 0.42, 0.58};  ///< towards the sun; any length but 0
-  double radius = 0.035;                 ///< angular, radians, in [0, 0.5]; the real one has 0.0047
-  Vec3 irradiance = {8.8, 7.4, 5.7};     ///< on a plane that faces it, linear RGB
+  Vec3 direction = {-0.65329, 0.44065, 0.61566};  ///< towards the sun; any length but 0
+  double radius = 0.035;                          ///< angular, radians, in [0, 0.5]; the real one has 0.0047
+  Vec3 irradiance = {8.8, 7.4, 5.7};              ///< on a plane that faces it, linear RGB
 };
 
 /// A dome whose radiance changes linearly with the sine of the elevation between three heights.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace wilt {
@@ -39,6 +40,14 @@ const char* verdict_text(Verdict verdict) {
 Verdict verdict(const Claim& claim) {
   if (!claim.value) return Verdict::not_run;
   return claim.criterion.holds(*claim.value) ? Verdict::comes_out : Verdict::does_not;
+}
+
+void withhold(std::vector<Claim>& claims, const std::set<std::string>& broken_models) {
+  for (Claim& claim : claims) {
+    if (!claim.value || broken_models.count(claim.model) == 0) continue;
+    claim.value = std::numeric_limits<double>::quiet_NaN();
+    claim.detail = "a run stopped early; the report's notes say why";
+  }
 }
 
 std::string value_text(const Claim& claim) {

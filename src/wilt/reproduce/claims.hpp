@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ struct Claim {
 };
 
 Verdict verdict(const Claim& claim);
+
+/// Takes the numbers from the claims under models of which a run stopped early: they do not come out.
+void withhold(std::vector<Claim>& claims, const std::set<std::string>& broken_models);
 
 /// The measurement against the criterion in words, with the detail: the "why" of the verdict.
 std::string reason(const Claim& claim);

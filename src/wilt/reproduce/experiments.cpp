@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "wilt/simulation/simulate.hpp"
 
 namespace wilt {
@@ -37,14 +39,23 @@ const Experiment& Experiments::run(const std::string& name, const std::string& m
                                    const Overrides& overrides) {
   const Config resolved = config(name, model, overrides);
   auto& experiment = runs_[to_json(resolved)];
-  if (experiment) return *experiment;
+  if (!experiment) experiment = compute(name, resolved);
+  if (!experiment->result.completed) broken_.insert(model);
+  return *experiment;
+}
+
+std::unique_ptr<Experiment> Experiments::compute(const std::string& name, const Config& resolved) {
   const Subject& subject = leaf(name);
   SimulationResult result =
       simulate(subject.leaf, subject.venation, resolved, {{}, quiet_.cancelled, quiet_.note});
   quiet_.throw_if_cancelled();
-  if (!result.completed) quiet_.say(fmt::format("{}, {}: stopped at {}", name, model, result.stop_reason));
-  experiment = std::make_unique<Experiment>(Experiment{subject, resolved, std::move(result)});
-  return *experiment;
+  if (!result.completed)
+    quiet_.say(fmt::format("{}, {}: stopped at {}", name, resolved.model, result.stop_reason));
+  return std::make_unique<Experiment>(Experiment{subject, resolved, std::move(result)});
+}
+
+std::set<std::string> Experiments::take_broken() {
+  return std::exchange(broken_, {});
 }
 
 std::string setting_text(double value) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,14 +51,20 @@ class Experiments {
   const Experiment& run(const std::string& species, const std::string& model,
                         const Overrides& overrides = {});
 
+  /// The models of which run() has given a run that stopped early, since the last call.
+  std::set<std::string> take_broken();
+
   /// The configuration of such a run.
   Config config(const std::string& species, const std::string& model, const Overrides& overrides = {}) const;
 
  private:
+  std::unique_ptr<Experiment> compute(const std::string& species, const Config& resolved);
+
   int vertices_;
   std::uint64_t seed_;
   Monitor quiet_;
   std::map<std::string, std::unique_ptr<Subject>> leaves_;
+  std::set<std::string> broken_;
   std::map<std::string, std::unique_ptr<Experiment>> runs_;  // by the resolved configuration
 };
 

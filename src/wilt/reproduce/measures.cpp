@@ -74,6 +74,10 @@ FinalMetrics final_metrics(const Experiment& experiment) {
 
 double rank_correlation(const std::vector<double>& a, const std::vector<double>& b) {
   WILT_CHECK(a.size() == b.size(), a.size(), b.size());
+  const auto finite = [](const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  };
+  if (!finite(a) || !finite(b)) return std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> ra = ranks(a), rb = ranks(b);
   const double mean = 0.5 * (static_cast<double>(a.size()) - 1.0);
   double ab = 0.0, aa = 0.0, bb = 0.0;

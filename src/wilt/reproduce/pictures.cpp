@@ -18,14 +18,16 @@ namespace wilt {
 namespace {
 
 constexpr Finish kMatt{0.0, 0.0, 0.5, 0.0};  // no translucency, no gloss, no relief
+constexpr int kTexels = 512;                 // enough for pictures of this size
 constexpr double kDrawnVein = 0.007;         // radius of a vein that is drawn over the leaf, in lengths
 constexpr double kFromAbove = std::numbers::pi / 2.0;
 
 GlbFile glb_of(const Experiment& experiment) {
   const Subject& subject = experiment.subject;
-  return parse_glb(
-      glb_bytes(glb_scene(subject.leaf, subject.venation, experiment.config, experiment.result.frames)),
-      "the leaf");
+  Config config = experiment.config;
+  config.texture.size = kTexels;
+  return parse_glb(glb_bytes(glb_scene(subject.leaf, subject.venation, config, experiment.result.frames)),
+                   "the leaf");
 }
 
 std::vector<Scene> scenes_of(const std::vector<Shot>& shots) {

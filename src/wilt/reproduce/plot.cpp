@@ -216,7 +216,7 @@ PlotFiles write_plot(const Plot& plot, const std::string& folder) {
   const PlotFiles files{plot.name + ".svg", plot.name + ".csv", plot.name + ".gp"};
   write_file(folder + "/" + files.csv, plot_csv(plot));
   write_file(folder + "/" + files.script, plot_script(plot));
-  const ProgramOutput drawn = run_program({"gnuplot", files.script}, folder);
+  const ProgramOutput drawn = run_program("gnuplot", {files.script}, folder);
   if (!drawn.started) require_gnuplot();
   if (drawn.exit_code != 0 || drawn.text.find("</svg>") == std::string::npos)
     throw Error(
@@ -228,7 +228,7 @@ PlotFiles write_plot(const Plot& plot, const std::string& folder) {
 }
 
 void require_gnuplot() {
-  const ProgramOutput found = run_program({"gnuplot", "--version"}, "/");
+  const ProgramOutput found = run_program("gnuplot", {"--version"}, "/");
   if (!found.started || found.exit_code != 0)
     throw Error(
         ErrorCode::output,

@@ -8,12 +8,13 @@ namespace wilt {
 
 struct ProgramOutput {
   bool started = false;  ///< false: there is no such program
-  int exit_code = 0;     ///< 128 + the signal when one ended it
+  int exit_code = 0;     ///< the signal's number when one ended it
   std::string text;      ///< its standard output
 };
 
-/// Runs `arguments[0]`, searched in PATH, in `folder`, and waits for it. Nothing is read by a shell; its
+/// Runs the program `name`, searched in PATH, in `folder`, and waits for it. Nothing is read by a shell; its
 /// standard input is empty, its standard error dropped. It does not get the terminal's Ctrl-C.
-ProgramOutput run_program(const std::vector<std::string>& arguments, const std::string& folder);
+ProgramOutput run_program(const std::string& name, const std::vector<std::string>& arguments,
+                          const std::string& folder);
 
 }  // namespace wilt

@@ -106,13 +106,15 @@ std::vector<Claim> reproduce(const std::vector<std::string>& figures, const std:
   try {
     for (const Recipe& recipe : kRecipes) {
       if (std::find(figures.begin(), figures.end(), recipe.name) == figures.end()) continue;
+      workshop.experiments().take_broken();
       made.push_back(recipe.make(workshop));
+      withhold(made.back().claims, workshop.experiments().take_broken());
     }
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::interrupted) throw;
-    stopped = Error(ErrorCode::interrupted, fmt::format("interrupted; {} of {} figures are done and in '{}'",
-                                                        made.size(), figures.size(), folder));
-    facts.notes.push_back(fmt::format("Interrupted: {} of {} figures.", made.size(), figures.size()));
+    stopped = Error(error.code(), fmt::format("{}; {} of {} figures are done and in '{}'", error.what(),
+                                              made.size(), figures.size(), folder));
+    facts.notes.push_back(
+        fmt::format("Stopped ({}): {} of {} figures.", error.what(), made.size(), figures.size()));
   }
   const std::vector<Claim> claims = claims_of(made);
   write_file(folder + "/claims.csv", claims_csv(claims));

@@ -5,6 +5,7 @@
 
 #include "wilt/core/hash.hpp"
 #include "wilt/core/parallel.hpp"
+#include "wilt/core/smooth_step.hpp"
 #include "wilt/simulation/uv_raster.hpp"
 #include "wilt/simulation/vein_strokes.hpp"
 #include "wilt/venation/fine_network.hpp"
@@ -20,11 +21,6 @@ constexpr double kSunk = 0.0035;                             // of dry tissue be
 constexpr double kCrinkle[] = {0.0016, 0.00075, 0.00022};    // of dry tissue, at three sizes
 constexpr double kCrinkleFrequency[] = {30.0, 75.0, 190.0};  // in a leaf's length
 constexpr double kFreshShare = 0.25;                         // of crinkles and sunk tissue in a fresh leaf
-
-double smooth(double x) {
-  const double t = std::clamp(x, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 // A noise that creases: ridges where smooth noise changes its sign.
 double creases(const Vec2& p, std::uint64_t seed) {
@@ -82,11 +78,11 @@ class Sculptor {
     const double dry = kFreshShare + (1.0 - kFreshShare) * dryness;
     double height =
         kTertiary * network.tertiary + kQuaternary * network.quaternary + kAreole * network.areole;
-    height -= dry * kSunk * smooth(network.within / 0.45);
+    height -= dry * kSunk * smooth_step(0.0, 0.45, network.within);
     for (int k = 0; k < 3; ++k)
       height += dry * kCrinkle[k] * creases(p * kCrinkleFrequency[k], mix_hash(seed_, std::uint64_t(k)));
     // A main vein stands above what lies beside it.
-    return std::max((1.0 - vein) * height, height) * (1.0 - vein) + vein * kVein;
+    return (1.0 - vein) * height + vein * kVein;
   }
 
   const Leaf& leaf_;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "wilt/core/parallel.hpp"
+#include "wilt/core/smooth_step.hpp"
 #include "wilt/simulation/smooth_noise.hpp"
 
 namespace wilt {
@@ -18,11 +19,6 @@ constexpr double kPatchSize = 0.30, kSpeckle = 0.075;  // wavelengths of the noi
 constexpr double kRedPatch = 0.60;                     // and of the red patches
 constexpr double kVeinLag = 0.20;                      // how far a vein stays behind, of its age
 constexpr double kOldestTissue = 1.15;
-
-double smooth_step(double a, double b, double x) {
-  const double t = std::clamp((x - a) / (b - a), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 double mix(double a, double b, double t) {
   return a + t * (b - a);

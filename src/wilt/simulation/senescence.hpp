@@ -5,7 +5,7 @@
 // reach: distance to the nearest primary vein over the largest; gap: tissue between veins goes ahead of
 // tissue beside them; rim: so does the margin; patches: smooth seeded noise. Then, s(p, q; a) being smooth
 // steps: chlorophyll falls first, 1 - s(.08, .62); carotenoids linger, 1 - s(.5, 1.05); anthocyanin rises
-// while the green goes and mostly broken down at death; brown pigment comes with cell death, s(.55, 1),
+// while the green goes and is mostly broken down at death; brown pigment comes with cell death, s(.55, 1),
 // and N with it, air for water. The order and the intervals follow descriptions of autumn leaves (Matile
 // 2000; Merzlyak et al. 1999); the numbers are a calibration.
 #pragma once
