@@ -43,18 +43,18 @@ TEST_F(DrawnPlot, CanBeDrawnAgainFromItsScript) {
   const std::string svg = read_file(folder_ / files.svg);
   EXPECT_NE(svg.find("it's"), std::string::npos);
   EXPECT_NE(svg.find("first, with comma"), std::string::npos);
-  EXPECT_EQ(run_program({"gnuplot", files.script}, folder_).text, svg);
+  EXPECT_EQ(run_program("gnuplot", {files.script}, folder_).text, svg);
 }
 
 // Oracle: what was asked to be printed; a program that is not there is not an exception.
 TEST_F(DrawnPlot, ProgramsGiveTheirOutputAndExitCode) {
-  const ProgramOutput echo = run_program({"echo", "a b", "$HOME"}, folder_);
+  const ProgramOutput echo = run_program("echo", {"a b", "$HOME"}, folder_);
   EXPECT_TRUE(echo.started);
   EXPECT_EQ(echo.exit_code, 0);
   EXPECT_EQ(echo.text, "a b $HOME\n");
-  EXPECT_EQ(run_program({"pwd"}, folder_).text, std::filesystem::canonical(folder_).string() + "\n");
-  EXPECT_EQ(run_program({"false"}, folder_).exit_code, 1);
-  EXPECT_FALSE(run_program({"no-such-program-anywhere"}, folder_).started);
+  EXPECT_EQ(run_program("pwd", {}, folder_).text, std::filesystem::canonical(folder_).string() + "\n");
+  EXPECT_EQ(run_program("false", {}, folder_).exit_code, 1);
+  EXPECT_FALSE(run_program("no-such-program-anywhere", {}, folder_).started);
 }
 
 // Oracle: the contract; the folder and the file are named.
