@@ -24,7 +24,7 @@
 namespace wilt::cli {
 namespace {
 
-constexpr int kSheetFrames = 12, kFps = 25;
+constexpr int kSheetFrames = 12, kFps = 25, kSamples = 64;
 
 struct Request {
   std::string file, output, size, view, sun;
@@ -90,7 +90,7 @@ void check_options(const Request& request, Kind kind) {
 PictureOptions picture_options(const Request& request, Kind kind) {
   PictureOptions picture;
   set_size(picture, request, kind);
-  picture.samples = request.samples.value_or(kind == Kind::picture ? 256 : 64);
+  picture.samples = request.samples.value_or(kSamples);
   picture.seed = request.seed;
   constexpr double kDegree = std::numbers::pi / 180.0;
   if (!request.view.empty()) {
@@ -207,14 +207,15 @@ void run(const Request& request, const GlobalOptions& options) {
 
 void add_render(CLI::App& app, const GlobalOptions& options) {
   const auto request = std::make_shared<Request>();
-  CLI::App* verb = app.add_subcommand("render",
-                                      "Pictures, contact sheets and films of a result\n\n"
-                                      "Examples:\n"
-                                      "  wilt render maple.glb -o maple.png\n"
-                                      "  wilt render maple.glb -o poster.png --size 1920x1080 --sun 100,25\n"
-                                      "  wilt render maple.glb -o sheet.png --columns 6 --frames 12\n"
-                                      "  wilt render maple.glb -o maple.mp4\n"
-                                      "  wilt render maple.glb -o top.png --view -90,90 --frame 0\n");
+  CLI::App* verb =
+      app.add_subcommand("render",
+                         "Pictures, contact sheets and films of a result\n\n"
+                         "Examples:\n"
+                         "  wilt render maple.glb -o maple.png\n"
+                         "  wilt render maple.glb -o poster.png --size 1920x1080 --samples 256 --sun 60,28\n"
+                         "  wilt render maple.glb -o sheet.png --columns 6 --frames 12\n"
+                         "  wilt render maple.glb -o maple.mp4\n"
+                         "  wilt render maple.glb -o top.png --view -90,90 --frame 0\n");
   verb->add_option("FILE", request->file, "A .glb that wilt wrote")->required()->type_name("");
   verb->add_option(
           "-o,--output", request->output,
@@ -227,7 +228,7 @@ void add_render(CLI::App& app, const GlobalOptions& options) {
   verb->add_option("--size", request->size,
                    "Of a picture (960x720), of each in a sheet (480x360), of a film (640x480)")
       ->type_name("WxH");
-  verb->add_option("--samples", request->samples, "Per pixel at most (256; sheet and film 64)")
+  verb->add_option("--samples", request->samples, "Per pixel at most (64; 256 for a fine still)")
       ->check(CLI::Range(1, 65536))
       ->type_name("N");
   verb->add_option("--columns", request->columns, "Of a sheet (4)")
