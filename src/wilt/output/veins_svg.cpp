@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "wilt/output/markup.hpp"
 #include "wilt/output/vein_lines.hpp"
 #include "wilt/output/veins_files.hpp"
 #include "wilt/output/version.hpp"
@@ -42,26 +43,6 @@ Points2 band(const Points2& line, double start, double end) {
     outline.row(2 * count - 1 - i) = line.row(i) - across.transpose();
   }
   return outline;
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
 }
 
 /// What is drawn, in millimetres, and how large.
@@ -143,7 +124,7 @@ std::string veins_svg(const Leaf& leaf, const Venation& venation) {
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
       "width=\"{0:.3f}mm\" height=\"{1:.3f}mm\" viewBox=\"{2:.3f} {3:.3f} {0:.3f} {1:.3f}\">\n"
       "  <title>{4}: {5} tips</title>\n  <desc>wilt {6}; the leaf at rest from above, millimetres</desc>\n",
-      size.x(), size.y(), drawing.low.x(), drawing.low.y(), escaped(leaf.name), venation.tips.size(),
+      size.x(), size.y(), drawing.low.x(), drawing.low.y(), markup_text(leaf.name), venation.tips.size(),
       version());
   if (drawing.stalk.rows() >= 2) {
     fmt::format_to(std::back_inserter(svg), "  <path class=\"stalk\" d=\"{}\" fill=\"#786e3c\"/>\n",

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "wilt/output/markup.hpp"
 #include "wilt/output/version.hpp"
 #include "wilt/reproduce/pictures.hpp"
 #include "wilt/reproduce/report_style.hpp"
@@ -24,7 +25,7 @@ std::string grid_columns(std::size_t pictures, bool labels) {
 // Blocks as HTML.
 struct BlockWriter {
   std::string operator()(const Paragraph& paragraph) const {
-    return fmt::format("<p>{}</p>\n", html_escape(paragraph.text));
+    return fmt::format("<p>{}</p>\n", markup_text(paragraph.text));
   }
 
   std::string operator()(const PictureGrid& grid) const {
@@ -37,14 +38,14 @@ struct BlockWriter {
     if (!grid.columns.empty()) {
       if (labels) text += "<div></div>";
       for (const std::string& head : grid.columns)
-        text += fmt::format("<div class=\"head\">{}</div>", html_escape(head));
+        text += fmt::format("<div class=\"head\">{}</div>", markup_text(head));
       text += "\n";
     }
     for (const PictureGrid::Row& row : grid.rows) {
-      if (labels) text += fmt::format("<div class=\"label\">{}</div>", html_escape(row.label));
+      if (labels) text += fmt::format("<div class=\"label\">{}</div>", markup_text(row.label));
       for (const Picture& picture : row.pictures)
         text += fmt::format("<div class=\"cell\">{}<span>{}</span></div>\n", image(picture),
-                            html_escape(picture.caption));
+                            markup_text(picture.caption));
     }
     return text + "</div></div>" + caption(grid.caption) + "</figure>\n";
   }
@@ -52,11 +53,11 @@ struct BlockWriter {
   std::string operator()(const PictureStrips& strips) const {
     std::string text =
         "<figure><div class=\"scroll\"><div class=\"strips\">\n<div></div><div class=\"heads\">";
-    for (const std::string& head : strips.columns) text += fmt::format("<span>{}</span>", html_escape(head));
+    for (const std::string& head : strips.columns) text += fmt::format("<span>{}</span>", markup_text(head));
     text += "</div>\n";
     for (const PictureStrips::Row& row : strips.rows)
       text += fmt::format("<div class=\"label\">{}</div><div class=\"strip\">{}</div>\n",
-                          html_escape(row.label), image(row.strip));
+                          markup_text(row.label), image(row.strip));
     return text + "</div></div>" + caption(strips.caption) + "</figure>\n";
   }
 
@@ -65,18 +66,18 @@ struct BlockWriter {
         "<figure class=\"plot\"><img src=\"{}\" alt=\"{}\" loading=\"lazy\"/>"
         "<figcaption>{} Numbers: <a href=\"{}\">{}</a>, script: <a "
         "href=\"{}\">{}</a>.</figcaption></figure>\n",
-        plot.files.svg, html_escape(plot.alt), html_escape(plot.caption), plot.files.csv, plot.files.csv,
+        plot.files.svg, markup_text(plot.alt), markup_text(plot.caption), plot.files.csv, plot.files.csv,
         plot.files.script, plot.files.script);
   }
 
   std::string operator()(const TableBlock& table) const {
     std::string text = fmt::format("<div class=\"scroll\"><table><caption>{}</caption>\n<thead><tr>",
-                                   html_escape(table.caption));
-    for (const std::string& head : table.header) text += fmt::format("<th>{}</th>", html_escape(head));
+                                   markup_text(table.caption));
+    for (const std::string& head : table.header) text += fmt::format("<th>{}</th>", markup_text(head));
     text += "</tr></thead>\n<tbody>";
     for (const auto& row : table.rows) {
       text += "<tr>";
-      for (const std::string& cell : row) text += fmt::format("<td>{}</td>", html_escape(cell));
+      for (const std::string& cell : row) text += fmt::format("<td>{}</td>", markup_text(cell));
       text += "</tr>\n";
     }
     return text + "</tbody></table></div>\n";
@@ -89,16 +90,16 @@ struct BlockWriter {
         "<p class=\"soft\">{}: {:.3g} <span class=\"bar\" style=\"background: linear-gradient(to "
         "right{})\"></span> "
         "{:.3g}</p>\n",
-        html_escape(bar.label), bar.least, colours, bar.most);
+        markup_text(bar.label), bar.least, colours, bar.most);
   }
 
  private:
   static std::string image(const Picture& picture) {
     return fmt::format("<a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\" loading=\"lazy\"/></a>", picture.file,
-                       html_escape(picture.alt));
+                       markup_text(picture.alt));
   }
   static std::string caption(const std::string& text) {
-    return text.empty() ? "" : fmt::format("<figcaption>{}</figcaption>", html_escape(text));
+    return text.empty() ? "" : fmt::format("<figcaption>{}</figcaption>", markup_text(text));
   }
 };
 
@@ -124,13 +125,13 @@ std::string summary(const std::vector<Figure>& figures) {
     for (const Claim& claim : figure.claims) {
       if (claim.model != "paper") continue;
       text += fmt::format("<tr><td><a href=\"#{}\">{}</a></td><td>{}</td><td>{}: {}</td>", figure.id,
-                          short_name(figure), html_escape(claim.statement), html_escape(claim.metric),
-                          html_escape(claim.criterion.text() + (claim.unit.empty() ? "" : " " + claim.unit)));
+                          short_name(figure), markup_text(claim.statement), markup_text(claim.metric),
+                          markup_text(claim.criterion.text() + (claim.unit.empty() ? "" : " " + claim.unit)));
       for (const char* model : {"paper", "cell"}) {
         const Claim* found = find_claim(figure, claim.id, model);
         text += found == nullptr ? "<td></td>"
                                  : fmt::format("<td>{}<br/>{}</td>", mark(verdict(*found)),
-                                               html_escape(value_text(*found)));
+                                               markup_text(value_text(*found)));
       }
       text += "</tr>\n";
     }
@@ -140,8 +141,8 @@ std::string summary(const std::vector<Figure>& figures) {
 
 std::string section(const Figure& figure) {
   std::string text = fmt::format("<section id=\"{}\"><h2><span class=\"number\">{}</span> {}</h2>\n",
-                                 figure.id, short_name(figure), html_escape(figure.title));
-  text += fmt::format("<blockquote><p>{}</p></blockquote>\n", html_escape(figure.claim));
+                                 figure.id, short_name(figure), markup_text(figure.title));
+  text += fmt::format("<blockquote><p>{}</p></blockquote>\n", markup_text(figure.claim));
   for (const Block& block : figure.blocks) text += std::visit(BlockWriter{}, block);
   if (figure.claims.empty()) return text + "</section>\n";
   text +=
@@ -150,8 +151,8 @@ std::string section(const Figure& figure) {
       "</thead>\n<tbody>";
   for (const Claim& claim : figure.claims)
     text +=
-        fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", html_escape(claim.statement),
-                    claim.model, mark(verdict(claim)), html_escape(reason(claim)));
+        fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", markup_text(claim.statement),
+                    claim.model, mark(verdict(claim)), markup_text(reason(claim)));
   return text + "</tbody></table>\n</section>\n";
 }
 
@@ -168,29 +169,6 @@ std::string counts(const std::vector<Figure>& figures, const char* model) {
 }
 
 }  // namespace
-
-std::string html_escape(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 std::string report_html(const std::vector<Figure>& figures, const ReportFacts& facts) {
   std::string text = fmt::format(
@@ -212,7 +190,7 @@ std::string report_html(const std::vector<Figure>& figures, const ReportFacts& f
       "veins, gravity. Every verdict is computed: a measured number against a stated criterion. L is the "
       "length of the leaf.</p>\n";
   for (const std::string& note : facts.notes)
-    text += fmt::format("<p><strong>{}</strong></p>\n", html_escape(note));
+    text += fmt::format("<p><strong>{}</strong></p>\n", markup_text(note));
   text += "<nav>";
   for (const Figure& figure : figures)
     text += fmt::format("<a href=\"#{}\">{}</a>\n", figure.id, short_name(figure));

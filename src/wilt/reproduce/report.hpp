@@ -17,7 +17,4 @@ struct ReportFacts {
 /// index.html: claims at the top, a section per figure. Well-formed XML, no scripts, links are relative.
 std::string report_html(const std::vector<Figure>& figures, const ReportFacts& facts);
 
-/// &, <, > and quotes as entities.
-std::string html_escape(const std::string& text);
-
 }  // namespace wilt
