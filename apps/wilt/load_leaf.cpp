@@ -4,9 +4,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 
+#include "arguments.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/core/nearest.hpp"
 #include "wilt/import/read_leaf.hpp"
@@ -16,17 +16,6 @@ namespace wilt::cli {
 namespace {
 
 constexpr int kDefaultVertices = 2000;
-
-Vec2 parse_point(const std::string& text) {
-  char* end = nullptr;
-  const double x = std::strtod(text.c_str(), &end);
-  if (end != text.c_str() && *end == ',') {
-    const char* second = end + 1;
-    const double y = std::strtod(second, &end);
-    if (end != second && *end == '\0') return {x, y};
-  }
-  throw Error(ErrorCode::configuration, fmt::format("--petiole takes two numbers, X,Y, not '{}'", text));
-}
 
 bool looks_like_a_file(const std::string& leaf) {
   return std::filesystem::path(leaf).has_extension() || leaf.find('/') != std::string::npos;
@@ -73,7 +62,8 @@ Leaf load_leaf(const LeafRequest& request, const Monitor& monitor) {
   options.vertices = request.vertices;
   options.seed = request.seed;
   options.nth = request.nth;
-  if (!request.petiole.empty()) options.petiole = parse_point(request.petiole);
+  if (!request.petiole.empty())
+    options.petiole = parse_pair(request.petiole, ',', "--petiole takes two numbers, X,Y");
   return read_leaf(request.leaf, options, monitor);
 }
 

@@ -10,7 +10,6 @@
 #include "wilt/output/gltf.hpp"
 #include "wilt/output/image_codec.hpp"
 #include "wilt/output/obj.hpp"
-#include "wilt/render/leaf_scene.hpp"
 #include "wilt/render/picture.hpp"
 #include "wilt/simulation/simulate.hpp"
 
@@ -18,6 +17,8 @@ namespace wilt::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr int kPictureWidth = 960, kPictureHeight = 720;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -71,41 +72,45 @@ void check_writable(const std::string& path) {
     refuse("you may not write into its folder");
 }
 
-void write_result(const std::string& path, const WitheredLeaf& withered, Terminal& terminal) {
+void ResultFiles::write(const std::string& path) {
   const std::string extension = extension_of(path);
-  if (extension == ".glb") {
-    GlbOptions options;
-    options.seconds = withered.config.clip.seconds;
-    write_glb(path, glb_scene(withered.leaf, withered.venation, withered.config, withered.result.frames),
-              options);
-  } else if (extension == ".obj") {
-    write_obj(path, withered.leaf, withered.result.frames.back());
+  if (extension == ".obj") {
+    write_obj(path, withered_.leaf, withered_.result.frames.back());
+  } else if (extension == ".glb") {
+    write_file(path, glb());
   } else {
-    const GlbFile file = result_file(withered);
-    const int last = static_cast<int>(file.times.size()) - 1;
-    write_image(path, picture_of(file, last, kPictureWidth, kPictureHeight, terminal));
+    write_image(path, picture(last_frame(), kPictureWidth, kPictureHeight));
   }
+}
+
+Image ResultFiles::picture(int frame, int width, int height) {
+  PictureOptions options;
+  options.width = width;
+  options.height = height;
+  return render(scene().at(frame), options, terminal_.monitor());
+}
+
+const std::string& ResultFiles::glb() {
+  if (glb_.empty()) {
+    GlbOptions options;
+    options.seconds = withered_.config.clip.seconds;
+    glb_ = glb_bytes(glb_scene(withered_.leaf, withered_.venation, withered_.config, withered_.result.frames),
+                     options);
+  }
+  return glb_;
+}
+
+const LeafScene& ResultFiles::scene() {
+  if (!scene_) {
+    file_ = parse_glb(glb(), withered_.leaf.name);
+    scene_.emplace(file_);
+  }
+  return *scene_;
 }
 
 std::string report_of(const WitheredLeaf& withered) {
   return report_json(withered.leaf, withered.venation, withered.result, to_json(withered.config),
                      withered.timings);
-}
-
-GlbFile result_file(const WitheredLeaf& withered) {
-  GlbOptions options;
-  options.seconds = withered.config.clip.seconds;
-  return parse_glb(
-      glb_bytes(glb_scene(withered.leaf, withered.venation, withered.config, withered.result.frames),
-                options),
-      withered.leaf.name);
-}
-
-Image picture_of(const GlbFile& file, int frame, int width, int height, Terminal& terminal) {
-  PictureOptions options;
-  options.width = width;
-  options.height = height;
-  return render(leaf_scene(file, frame), options, terminal.monitor());
 }
 
 }  // namespace wilt::cli

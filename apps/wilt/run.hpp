@@ -2,14 +2,15 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "load_leaf.hpp"
 #include "terminal.hpp"
 #include "wilt/core/image.hpp"
-#include "wilt/output/gltf.hpp"
 #include "wilt/output/report.hpp"
+#include "wilt/render/leaf_scene.hpp"
 #include "wilt/simulation/config.hpp"
 #include "wilt/simulation/result.hpp"
 
@@ -27,23 +28,35 @@ struct WitheredLeaf {
 /// Loads the leaf, finds its veins and withers it. The leaf's notes go to the terminal.
 WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& terminal);
 
-inline constexpr int kPictureWidth = 960, kPictureHeight = 720;
-
-/// Throws unless `path` has an extension that write_result knows, and its folder exists: said before the
-/// work.
+/// Throws unless `path` has an extension that ResultFiles knows, and can become a file: said before the work.
 void check_result_path(const std::string& path);
 
-/// Writes one result by its extension: .glb (all frames), .obj (the last frame), .png (a picture of it).
-void write_result(const std::string& path, const WitheredLeaf& withered, Terminal& terminal);
+/// A withered leaf as files and pictures; what they share is made once, when the first needs it.
+class ResultFiles {
+ public:
+  /// Refers to both, which must outlive it.
+  ResultFiles(const WitheredLeaf& withered, Terminal& terminal) : withered_(withered), terminal_(terminal) {}
+
+  /// By extension: .glb (all frames), .obj (the last frame), .png .jpg (a picture of it).
+  void write(const std::string& path);
+
+  /// A picture of a frame (0 to last_frame()), lying on a table.
+  Image picture(int frame, int width, int height);
+  int last_frame() const { return static_cast<int>(withered_.result.frames.size()) - 1; }
+
+ private:
+  const std::string& glb();
+  const LeafScene& scene();
+
+  const WitheredLeaf& withered_;
+  Terminal& terminal_;
+  std::string glb_;
+  GlbFile file_;
+  std::optional<LeafScene> scene_;  // refers to file_
+};
 
 /// The text of report.json.
 std::string report_of(const WitheredLeaf& withered);
-
-/// The result as `wilt render` would read it from its .glb.
-GlbFile result_file(const WitheredLeaf& withered);
-
-/// A picture of a frame, lying on a table.
-Image picture_of(const GlbFile& file, int frame, int width, int height, Terminal& terminal);
 
 /// Throws Error{output} unless `path` can become a file: its folder exists and may be written to.
 void check_writable(const std::string& path);

@@ -27,11 +27,10 @@ void make_folder(const std::filesystem::path& folder) {
 }
 
 // Four stages from fresh to dry.
-Image stages(const GlbFile& file, Terminal& terminal) {
-  const int last = static_cast<int>(file.times.size()) - 1;
+Image stages(ResultFiles& files) {
   std::vector<Image> images;
   for (int k = 0; k < 4; ++k)
-    images.push_back(picture_of(file, last * k / 3, kSheetWidth, kSheetHeight, terminal));
+    images.push_back(files.picture(files.last_frame() * k / 3, kSheetWidth, kSheetHeight));
   return contact_sheet(images, 4);
 }
 
@@ -48,14 +47,13 @@ void run(const std::string& folder_name, const GlobalOptions& options) {
   WitheredLeaf withered = wither(request, config, terminal);
   if (withered.result.interrupted) throw Error(ErrorCode::interrupted, "interrupted; nothing was written");
 
-  const std::string glb = (folder / "maple.glb").string(), picture = (folder / "maple.png").string(),
+  const std::string clip = (folder / "maple.glb").string(), picture = (folder / "maple.png").string(),
                     sheet = (folder / "stages.png").string(), report = (folder / "report.json").string();
-  write_result(glb, withered, terminal);
+  ResultFiles files(withered, terminal);
+  files.write(clip);
   write_file(report, report_of(withered));
-  const GlbFile file = result_file(withered);
-  const int last = static_cast<int>(file.times.size()) - 1;
-  write_image(picture, picture_of(file, last, kPictureWidth, kPictureHeight, terminal));
-  write_image(sheet, stages(file, terminal));
+  files.write(picture);
+  write_image(sheet, stages(files));
   fmt::print(
       "A maple leaf has withered.\n"
       "  {:<34} plays in Blender (File > Import > glTF) and three.js\n"
@@ -66,7 +64,7 @@ void run(const std::string& folder_name, const GlobalOptions& options) {
       "Next, your own:\n"
       "  wilt simulate grape -o grape.glb\n"
       "  wilt simulate drawing.svg -o mine.glb\n",
-      glb, picture, sheet, report);
+      clip, picture, sheet, report);
 }
 
 }  // namespace

@@ -3,17 +3,18 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 
+#include "arguments.hpp"
 #include "run.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/core/parallel.hpp"
+#include "wilt/core/stack_rows.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/output/image_codec.hpp"
 #include "wilt/render/contact_sheet.hpp"
@@ -48,29 +49,16 @@ Kind kind_of(const Request& request) {
   return named || request.columns || request.frames ? Kind::sheet : Kind::picture;
 }
 
-// Two numbers with `separator` between them.
-Vec2 parse_pair(const std::string& text, char separator, const char* option, const char* example) {
-  char* end = nullptr;
-  const double first = std::strtod(text.c_str(), &end);
-  if (end != text.c_str() && *end == separator) {
-    const char* second = end + 1;
-    const double value = std::strtod(second, &end);
-    if (end != second && *end == '\0' && std::isfinite(first) && std::isfinite(value)) return {first, value};
-  }
-  throw Error(ErrorCode::configuration,
-              fmt::format("{} takes two numbers like {}, not '{}'", option, example, text));
-}
-
 void set_size(PictureOptions& picture, const Request& request, Kind kind) {
   static constexpr int kWidth[] = {960, 480, 640}, kHeight[] = {720, 360, 480};
   picture.width = kWidth[int(kind)], picture.height = kHeight[int(kind)];
   if (request.size.empty()) return;
-  const Vec2 size = parse_pair(request.size, 'x', "--size", "1920x1080");
-  for (int axis = 0; axis < 2; ++axis)
-    if (size[axis] != std::floor(size[axis]) || size[axis] < 16 || size[axis] > 16384)
+  const PixelSize size = parse_size(request.size, "--size takes two numbers like 1920x1080");
+  for (const int side : {size.width, size.height})
+    if (side < 16 || side > 16384)
       throw Error(ErrorCode::configuration,
                   fmt::format("--size is {}; width and height are 16 to 16384 pixels", request.size));
-  picture.width = int(size.x()), picture.height = int(size.y());
+  picture.width = size.width, picture.height = size.height;
 }
 
 // An option that means nothing for what is made is a mistake of the caller.
@@ -94,7 +82,7 @@ PictureOptions picture_options(const Request& request, Kind kind) {
   picture.seed = request.seed;
   constexpr double kDegree = std::numbers::pi / 180.0;
   if (!request.view.empty()) {
-    const Vec2 view = parse_pair(request.view, ',', "--view", "-75,45");
+    const Vec2 view = parse_pair(request.view, ',', "--view takes two numbers like -75,45");
     if (std::abs(view.y()) > 90.0)
       throw Error(ErrorCode::configuration,
                   fmt::format("--view is {}; the second angle is -90 to 90 degrees", request.view));
@@ -102,7 +90,7 @@ PictureOptions picture_options(const Request& request, Kind kind) {
     picture.view.elevation = view.y() * kDegree;
   }
   if (!request.sun.empty()) {
-    const Vec2 sun = parse_pair(request.sun, ',', "--sun", "140,35") * kDegree;
+    const Vec2 sun = parse_pair(request.sun, ',', "--sun takes two numbers like 140,35") * kDegree;
     picture.lighting.sun.direction = {std::cos(sun.x()) * std::cos(sun.y()),
                                       std::sin(sun.x()) * std::cos(sun.y()), std::sin(sun.y())};
   }
@@ -112,14 +100,8 @@ PictureOptions picture_options(const Request& request, Kind kind) {
 // One camera for all: closest that sees every frame.
 Camera camera_for(const LeafScene& leaf, const std::vector<double>& frames, const PictureOptions& picture) {
   std::vector<Points3> parts;
-  Eigen::Index count = 0;
-  for (const double frame : frames) count += parts.emplace_back(scene_points(leaf.at(frame))).rows();
-  Points3 all(count, 3);
-  for (Eigen::Index at = 0; const Points3& part : parts) {
-    all.middleRows(at, part.rows()) = part;
-    at += part.rows();
-  }
-  return frame_camera(all, double(picture.width) / picture.height, picture.view);
+  for (const double frame : frames) parts.push_back(scene_points(leaf.at(frame)));
+  return frame_camera(stack_rows(parts), double(picture.width) / picture.height, picture.view);
 }
 
 std::vector<double> evenly(int count, double last) {

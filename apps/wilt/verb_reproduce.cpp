@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <memory>
 
+#include "arguments.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/core/parallel.hpp"
@@ -20,20 +20,13 @@ struct Request {
   int threads = 0;
 };
 
-void parse_size(const std::string& text, PictureSettings& pictures) {
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, pictures.width);
-  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-    const auto height = std::from_chars(width.ptr + 1, end, pictures.height);
-    if (height.ec == std::errc() && height.ptr == end) return;
-  }
-  throw Error(ErrorCode::configuration,
-              fmt::format("--size takes pixels as WxH, for example 480x360, not '{}'", text));
-}
-
 void run(Request& request, const GlobalOptions& options) {
   const std::vector<std::string> figures = chosen_figures(request.figures);
-  if (!request.size.empty()) parse_size(request.size, request.options.pictures);
+  if (!request.size.empty()) {
+    const PixelSize size = parse_size(request.size, "--size takes pixels as WxH, for example 480x360");
+    request.options.pictures.width = size.width;
+    request.options.pictures.height = size.height;
+  }
   const ThreadLimit limit(request.threads);
   Terminal terminal(options);
   catch_interrupts();

@@ -79,8 +79,9 @@ void check_outputs(const Request& request) {
 
 void write_all(const Request& request, WitheredLeaf& withered, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
+  ResultFiles files(withered, terminal);
   for (const std::string& path : request.outputs) {
-    write_result(path, withered, terminal);
+    files.write(path);
     terminal.say("wrote " + path);
   }
   if (!request.forces.empty()) {

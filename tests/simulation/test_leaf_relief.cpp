@@ -24,7 +24,9 @@ Case make_case(const std::string& name) {
 }
 
 Image bake(const Case& c, double dryness, int size) {
-  return leaf_relief(c.leaf, c.venation, Eigen::VectorXd::Constant(c.leaf.positions.rows(), dryness), size);
+  const auto texels = BladeTexels::make(c.leaf, c.venation, size);
+  if (!texels) return {};
+  return leaf_relief(*texels, Eigen::VectorXd::Constant(c.leaf.positions.rows(), dryness));
 }
 
 Vec3 normal_at(const Image& map, const Vec2& uv) {

@@ -103,8 +103,10 @@ Case make_case(const std::string& name) {
 }
 
 Image bake(const Case& c, double dryness, int size, const Vec3& gain = Vec3::Ones()) {
-  return leaf_texture(c.leaf, c.venation, c.pattern, TissueColours(c.pigments),
-                      Eigen::VectorXd::Constant(c.leaf.positions.rows(), dryness), gain, size);
+  const auto texels = BladeTexels::make(c.leaf, c.venation, size);
+  if (!texels) return {};
+  return leaf_texture(*texels, c.pattern, TissueColours(c.pigments),
+                      Eigen::VectorXd::Constant(c.leaf.positions.rows(), dryness), gain);
 }
 
 // Mean linear colour of the covered texels.

@@ -71,10 +71,18 @@ Points3 vertex_normals(const SurfaceMesh& mesh, const Points3& positions) {
   return normals;
 }
 
-Vec3 area_vector(const SurfaceMesh& mesh, const Points3& positions) {
+Vec3 area_vector(const Faces& faces, const Points3& positions) {
   Vec3 sum = Vec3::Zero();
-  for (const FaceId f : mesh.faces()) sum += 0.5 * face_cross(mesh, positions, f);
+  for (int f = 0; f < faces.rows(); ++f) {
+    const Vec3 ab = positions.row(faces(f, 1)) - positions.row(faces(f, 0));
+    const Vec3 ac = positions.row(faces(f, 2)) - positions.row(faces(f, 0));
+    sum += 0.5 * ab.cross(ac);
+  }
   return sum;
+}
+
+Vec3 area_vector(const SurfaceMesh& mesh, const Points3& positions) {
+  return area_vector(mesh.face_matrix(), positions);
 }
 
 double smallest_angle(const SurfaceMesh& mesh, const Points3& positions) {

@@ -20,6 +20,7 @@ VertexData<double> vertex_areas(const SurfaceMesh& mesh, const Points3& position
 Points3 vertex_normals(const SurfaceMesh& mesh, const Points3& positions);
 
 /// The area vector of the surface: half the sum of the faces' cross products.
+Vec3 area_vector(const Faces& faces, const Points3& positions);
 Vec3 area_vector(const SurfaceMesh& mesh, const Points3& positions);
 
 /// The smallest angle of any triangle, radians.

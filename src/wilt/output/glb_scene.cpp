@@ -43,12 +43,11 @@ GlbScene glb_scene(const Leaf& leaf, const Venation& venation, const Config& con
     scene.stalk_colours.push_back((1.0 - dry) * linear_rgb(pigments.stalk) + dry * kStalkShade * dead);
   }
   const Vec3 gain = texture_gain(scene.colours);
-  const auto size = static_cast<int>(config.texture.size);
+  const auto texels = BladeTexels::make(leaf, venation, static_cast<int>(config.texture.size));
+  if (!texels) return scene;
   const Eigen::VectorXd& dryness = frames.back().dryness;
-  const Image texture = leaf_texture(leaf, venation, pattern, tissue, dryness, gain, size);
-  if (texture.empty()) return scene;
-  scene.texture = encode_jpeg(texture);
-  scene.normal_texture = encode_jpeg(leaf_relief(leaf, venation, dryness, size));
+  scene.texture = encode_jpeg(leaf_texture(*texels, pattern, tissue, dryness, gain));
+  scene.normal_texture = encode_jpeg(leaf_relief(*texels, dryness));
   const Points3 shown = scene.colours.back().cwiseMax(kDarkest) * gain.asDiagonal();
   for (Points3& frame : scene.colours) frame = frame.cwiseMax(kDarkest).cwiseQuotient(shown).cwiseMin(1.0);
   return scene;

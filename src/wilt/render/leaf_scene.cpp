@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "wilt/core/check.hpp"
+#include "wilt/core/stack_rows.hpp"
+#include "wilt/mesh/geometry.hpp"
 #include "wilt/output/image_codec.hpp"
 #include "wilt/output/tube.hpp"
 #include "wilt/render/refine.hpp"
@@ -20,17 +22,6 @@ constexpr int kRimSides = 5;
 constexpr double kFreshRelief = 0.3;  // of the relief of the dry leaf
 constexpr int kBlendedFrames = 2;     // on either side
 
-Vec3 area_vector(const Points3& positions, const Faces& faces) {
-  Vec3 sum = Vec3::Zero();
-  for (int f = 0; f < faces.rows(); ++f) {
-    const Vec3 a = positions.row(faces(f, 0)).transpose();
-    const Vec3 ab = positions.row(faces(f, 1)).transpose() - a,
-               ac = positions.row(faces(f, 2)).transpose() - a;
-    sum += 0.5 * ab.cross(ac);
-  }
-  return sum;
-}
-
 // Where the veins leave the stalk; the first vertex of a leaf without veins.
 Vec3 blade_base(const GlbFile& file, const Points3& positions) {
   if (file.veins.empty() || file.veins.front().faces.empty()) return positions.row(0).transpose();
@@ -43,7 +34,7 @@ Vec3 blade_base(const GlbFile& file, const Points3& positions) {
 
 // From the file's axes to the table's: mean normal up, base to middle along +y.
 Eigen::Matrix3d laid_down(const GlbFile& file, const Points3& positions) {
-  const Vec3 up = area_vector(positions, file.meshes.front().faces).normalized();
+  const Vec3 up = area_vector(file.meshes.front().faces, positions).normalized();
   const Vec3 way = positions.colwise().mean().transpose() - blade_base(file, positions);
   Vec3 apex = way - up * up.dot(way);
   if (apex.squaredNorm() < 1e-18) apex = up.unitOrthogonal();
@@ -57,15 +48,10 @@ Eigen::Matrix3d laid_down(const GlbFile& file, const Points3& positions) {
 Eigen::Quaterniond resting(const GlbFile& file, std::size_t frame) {
   const Points3& blade = file.meshes.front().frames[frame];
   const Eigen::Matrix3d laid = laid_down(file, blade);
-  Eigen::Index count = 0;
-  for (const GlbMesh& mesh : file.meshes) count += mesh.frames[frame].rows();
-  Points3 points(count, 3);
-  for (Eigen::Index at = 0; const GlbMesh& mesh : file.meshes) {
-    points.middleRows(at, mesh.frames[frame].rows()) = mesh.frames[frame] * laid.transpose();
-    at += mesh.frames[frame].rows();
-  }
+  std::vector<Points3> parts;
+  for (const GlbMesh& mesh : file.meshes) parts.push_back(mesh.frames[frame] * laid.transpose());
   const Vec3 centre = laid * blade.colwise().mean().transpose();
-  return Eigen::Quaterniond(resting_rotation(points, centre) * laid);
+  return Eigen::Quaterniond(resting_rotation(stack_rows(parts), centre) * laid);
 }
 
 Eigen::Quaterniond blended(const std::vector<Eigen::Quaterniond>& turns, int frame) {

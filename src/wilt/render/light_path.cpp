@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "wilt/core/smooth_step.hpp"
+#include "wilt/core/srgb.hpp"
 #include "wilt/render/sampling.hpp"
 #include "wilt/render/tone.hpp"
 
@@ -38,10 +39,6 @@ double coat_reflection(const Vec3& n, const Vec3& view, const Vec3& light, doubl
   const double d = a2 / (std::numbers::pi * q * q);
   const double g = 1.0 / (1.0 + smith_lambda(nl, alpha) + smith_lambda(nv, alpha));
   return d * g * fresnel(view.dot(h)) / (4.0 * nv);
-}
-
-double luminance(const Vec3& rgb) {
-  return rgb.dot(Vec3(0.2126, 0.7152, 0.0722));
 }
 
 // What the coat takes away from the light that goes in and out of the tissue.

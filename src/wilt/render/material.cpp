@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wilt/core/srgb.hpp"
+
 namespace wilt {
 namespace {
 
@@ -81,7 +83,7 @@ void conserve(ShadingPoint& point) {
 
 SheetOptics sheet_optics(const Vec3& upper_colour, double translucency) {
   const double brightest = std::max(upper_colour.maxCoeff(), 1e-6);
-  const double grey = upper_colour.dot(Vec3(0.2126, 0.7152, 0.0722));
+  const double grey = luminance(upper_colour);
   const Vec3 saturation = (upper_colour / brightest).cwiseSqrt();
   SheetOptics optics;
   optics.upper = upper_colour;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "wilt/core/error.hpp"
+#include "wilt/core/stack_rows.hpp"
 
 namespace wilt {
 namespace {
@@ -69,15 +70,9 @@ Vec3 Sky::mean_above() const {
 }
 
 Points3 scene_points(const Scene& scene) {
-  Eigen::Index count = 0;
-  for (const Surface& surface : scene.surfaces) count += surface.positions.rows();
-  Points3 points(count, 3);
-  Eigen::Index at = 0;
-  for (const Surface& surface : scene.surfaces) {
-    points.middleRows(at, surface.positions.rows()) = surface.positions;
-    at += surface.positions.rows();
-  }
-  return points;
+  std::vector<Points3> parts;
+  for (const Surface& surface : scene.surfaces) parts.push_back(surface.positions);
+  return stack_rows(parts);
 }
 
 void validate(const Scene& scene) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "wilt/core/srgb.hpp"
+#include "wilt/core/stack_rows.hpp"
 #include "wilt/mesh/geometry.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/output/tube.hpp"
@@ -54,18 +55,6 @@ Points3 on_blade(const GlbFile& file, const GlbVein& vein, const Surface& blade)
     for (int k = 0; k < 3; ++k) line.row(i) += vein.barycentric(i, k) * blade.positions.row(corners[k]);
   }
   return line;
-}
-
-Points3 stacked(const std::vector<Points3>& parts) {
-  Eigen::Index rows = 0;
-  for (const Points3& part : parts) rows += part.rows();
-  Points3 all(rows, 3);
-  Eigen::Index row = 0;
-  for (const Points3& part : parts) {
-    all.middleRows(row, part.rows()) = part;
-    row += part.rows();
-  }
-  return all;
 }
 
 // The blade alone, upright in a picture taken from above.
@@ -148,7 +137,7 @@ std::vector<Image> Pictures::row(const std::vector<Shot>& shots, double scale) c
   const std::vector<Scene> scenes = scenes_of(shots);
   std::vector<Points3> seen;
   for (const Scene& scene : scenes) seen.push_back(scene.surfaces.front().positions);
-  return render_all(scenes, stacked(seen), scale);
+  return render_all(scenes, stack_rows(seen), scale);
 }
 
 std::vector<Image> Pictures::close_ups(const std::vector<Shot>& shots,
@@ -163,7 +152,7 @@ std::vector<Image> Pictures::close_ups(const std::vector<Shot>& shots,
         seen.push_back(blade.row(static_cast<Eigen::Index>(s)));
     }
   }
-  return render_all(scenes, stacked(seen), 1.0);
+  return render_all(scenes, stack_rows(seen), 1.0);
 }
 
 Image Pictures::veins(const Experiment& experiment) const {
