@@ -1,9 +1,11 @@
 # One target per room: wilt_room(NAME SOURCES a.cpp ... ROOMS core mesh ... LIBRARIES fmt::fmt-header-only ...)
 # ROOMS are the rooms that its public headers include; LIBRARIES are private to its sources.
 add_library(wilt_options INTERFACE)
-# No contraction: the same bytes on every processor of one class.
+# No contraction: the same bytes on every processor of one class. No errno from sqrt, which would keep it out of
+# vectors. Vectors never cross a function that is not inlined, so their calling convention does not matter.
 target_compile_options(wilt_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+  -ffp-contract=off -fno-math-errno -Wno-psabi)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 sees uninitialised members in Eigen's and svgpp's inlined code where there are none.
   target_compile_options(wilt_options INTERFACE -Wno-maybe-uninitialized)
