@@ -20,6 +20,15 @@ TEST(Simd, gathersThePointsOfItsIndices) {
   }
 }
 
+TEST(Simd, storesPointsAsItLoadsThem) {
+  std::vector<Double4> points(8), copy(8);
+  for (int i = 0; i < 8; ++i) points[i] = Double4{1.0 * i, 10.0 + i, 20.0 + i, 0.0};
+  simd::store_points(copy.data(), simd::load_points(points.data()));
+  for (int i = 0; i < 8; ++i) {
+    for (int k = 0; k < 4; ++k) EXPECT_EQ(copy[i][k], points[i][k]);
+  }
+}
+
 TEST(Simd, loadsWhereNothingIsAligned) {
   const double numbers[] = {0, 1, 2, 3, 4, 5, 6, 7, 8};
   double copy[9] = {};

@@ -59,12 +59,13 @@ WILT_INLINE double sum(Double8 v) {
   return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
 }
 
-/// The points of eight indices.
-WILT_INLINE Point8 gather(const Double4* points, const int* indices) {
-  const auto pair = [&](int k) __attribute__((always_inline)) {  // of lanes k and k + 4
-    return __builtin_shufflevector(points[indices[k]], points[indices[k + 4]], 0, 1, 2, 3, 4, 5, 6, 7);
-  };
-  const Double8 a = pair(0), b = pair(1), c = pair(2), d = pair(3);
+/// Eight points as their coordinates; `point(k)` is the k-th.
+template <class PointOf>
+WILT_INLINE Point8 transpose(const PointOf& point) {
+  const Double8 a = __builtin_shufflevector(point(0), point(4), 0, 1, 2, 3, 4, 5, 6, 7);
+  const Double8 b = __builtin_shufflevector(point(1), point(5), 0, 1, 2, 3, 4, 5, 6, 7);
+  const Double8 c = __builtin_shufflevector(point(2), point(6), 0, 1, 2, 3, 4, 5, 6, 7);
+  const Double8 d = __builtin_shufflevector(point(3), point(7), 0, 1, 2, 3, 4, 5, 6, 7);
   // x and z of two lanes, then y: xa xb za zb ...
   const Double8 xz01 = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
   const Double8 y01 = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
@@ -73,6 +74,33 @@ WILT_INLINE Point8 gather(const Double4* points, const int* indices) {
   return {__builtin_shufflevector(xz01, xz23, 0, 1, 8, 9, 4, 5, 12, 13),
           __builtin_shufflevector(y01, y23, 0, 1, 8, 9, 4, 5, 12, 13),
           __builtin_shufflevector(xz01, xz23, 2, 3, 10, 11, 6, 7, 14, 15)};
+}
+
+/// The points of eight indices.
+WILT_INLINE Point8 gather(const Double4* points, const int* indices) {
+  return transpose([&](int k) __attribute__((always_inline)) { return points[indices[k]]; });
+}
+
+/// Eight points in a row.
+WILT_INLINE Point8 load_points(const Double4* points) {
+  return transpose([&](int k) __attribute__((always_inline)) { return points[k]; });
+}
+
+/// Writes eight points in a row; the free number of each becomes 0.
+WILT_INLINE void store_points(Double4* points, const Point8& p) {
+  const Double8 zero{};
+  const Double8 xy_even = __builtin_shufflevector(p.x, p.y, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Double8 xy_odd = __builtin_shufflevector(p.x, p.y, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Double8 z_even = __builtin_shufflevector(p.z, zero, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Double8 z_odd = __builtin_shufflevector(p.z, zero, 1, 9, 3, 11, 5, 13, 7, 15);
+  points[0] = __builtin_shufflevector(xy_even, z_even, 0, 1, 8, 9);
+  points[1] = __builtin_shufflevector(xy_odd, z_odd, 0, 1, 8, 9);
+  points[2] = __builtin_shufflevector(xy_even, z_even, 2, 3, 10, 11);
+  points[3] = __builtin_shufflevector(xy_odd, z_odd, 2, 3, 10, 11);
+  points[4] = __builtin_shufflevector(xy_even, z_even, 4, 5, 12, 13);
+  points[5] = __builtin_shufflevector(xy_odd, z_odd, 4, 5, 12, 13);
+  points[6] = __builtin_shufflevector(xy_even, z_even, 6, 7, 14, 15);
+  points[7] = __builtin_shufflevector(xy_odd, z_odd, 6, 7, 14, 15);
 }
 
 }  // namespace simd
