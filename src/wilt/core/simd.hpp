@@ -23,15 +23,26 @@
 
 namespace wilt {
 
-/// + - * / act lane by lane, also with one number on either side; a comparison gives a Mask8.
+/// For values in functions, not for arrays: + - * / act lane by lane, also with one number on either side; a
+/// comparison gives a Mask8. (Code for different processors disagrees on how a bare vector is aligned in
+/// memory.)
 using Double8 = double __attribute__((vector_size(64)));
 using Mask8 = long __attribute__((vector_size(64)));  ///< all bits of a lane, or none
-/// A point and a number that is free to use: points are gathered faster when each is one load.
 using Double4 = double __attribute__((vector_size(32)));
 
-/// Eight points.
-struct Point8 {
-  Double8 x, y, z;
+/// Eight numbers of an array.
+struct alignas(64) Number8 {
+  Double8 lanes{};
+};
+
+/// Eight points, coordinate by coordinate.
+struct alignas(64) Point8 {
+  Double8 x{}, y{}, z{};
+};
+
+/// A point of an array that is gathered from, x y z 0: one load each.
+struct alignas(32) Point4 {
+  Double4 xyz{};
 };
 
 namespace simd {
@@ -77,30 +88,30 @@ WILT_INLINE Point8 transpose(const PointOf& point) {
 }
 
 /// The points of eight indices.
-WILT_INLINE Point8 gather(const Double4* points, const int* indices) {
-  return transpose([&](int k) __attribute__((always_inline)) { return points[indices[k]]; });
+WILT_INLINE Point8 gather(const Point4* points, const int* indices) {
+  return transpose([&](int k) __attribute__((always_inline)) { return points[indices[k]].xyz; });
 }
 
 /// Eight points in a row.
-WILT_INLINE Point8 load_points(const Double4* points) {
-  return transpose([&](int k) __attribute__((always_inline)) { return points[k]; });
+WILT_INLINE Point8 load_points(const Point4* points) {
+  return transpose([&](int k) __attribute__((always_inline)) { return points[k].xyz; });
 }
 
 /// Writes eight points in a row; the free number of each becomes 0.
-WILT_INLINE void store_points(Double4* points, const Point8& p) {
+WILT_INLINE void store_points(Point4* points, const Point8& p) {
   const Double8 zero{};
   const Double8 xy_even = __builtin_shufflevector(p.x, p.y, 0, 8, 2, 10, 4, 12, 6, 14);
   const Double8 xy_odd = __builtin_shufflevector(p.x, p.y, 1, 9, 3, 11, 5, 13, 7, 15);
   const Double8 z_even = __builtin_shufflevector(p.z, zero, 0, 8, 2, 10, 4, 12, 6, 14);
   const Double8 z_odd = __builtin_shufflevector(p.z, zero, 1, 9, 3, 11, 5, 13, 7, 15);
-  points[0] = __builtin_shufflevector(xy_even, z_even, 0, 1, 8, 9);
-  points[1] = __builtin_shufflevector(xy_odd, z_odd, 0, 1, 8, 9);
-  points[2] = __builtin_shufflevector(xy_even, z_even, 2, 3, 10, 11);
-  points[3] = __builtin_shufflevector(xy_odd, z_odd, 2, 3, 10, 11);
-  points[4] = __builtin_shufflevector(xy_even, z_even, 4, 5, 12, 13);
-  points[5] = __builtin_shufflevector(xy_odd, z_odd, 4, 5, 12, 13);
-  points[6] = __builtin_shufflevector(xy_even, z_even, 6, 7, 14, 15);
-  points[7] = __builtin_shufflevector(xy_odd, z_odd, 6, 7, 14, 15);
+  points[0].xyz = __builtin_shufflevector(xy_even, z_even, 0, 1, 8, 9);
+  points[1].xyz = __builtin_shufflevector(xy_odd, z_odd, 0, 1, 8, 9);
+  points[2].xyz = __builtin_shufflevector(xy_even, z_even, 2, 3, 10, 11);
+  points[3].xyz = __builtin_shufflevector(xy_odd, z_odd, 2, 3, 10, 11);
+  points[4].xyz = __builtin_shufflevector(xy_even, z_even, 4, 5, 12, 13);
+  points[5].xyz = __builtin_shufflevector(xy_odd, z_odd, 4, 5, 12, 13);
+  points[6].xyz = __builtin_shufflevector(xy_even, z_even, 6, 7, 14, 15);
+  points[7].xyz = __builtin_shufflevector(xy_odd, z_odd, 6, 7, 14, 15);
 }
 
 }  // namespace simd
