@@ -13,7 +13,8 @@ namespace wilt::detail {
 /// which the path comes. A face with two final vertices of one root reaches the third from the front's centre
 /// in the plane, found by their distances and directions (after Novotni and Klein 2002, who use the distances
 /// alone); with two roots, the line through both images tells which of them the third vertex sees. Exact on
-/// flat convex surfaces. Keeps its memory from one run to the next. Keeps a reference to the surface.
+/// flat convex surfaces, but for directions in single precision. Keeps its memory from one run to the next.
+/// Keeps a reference to the surface.
 class FastMarch {
  public:
   explicit FastMarch(const MarchSurface& surface);
