@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 /// Before a function: its body is compiled for AVX-512, for AVX2 and for any processor, and the program takes
@@ -39,6 +40,21 @@ struct alignas(64) Number8 {
 struct alignas(64) Point8 {
   Double8 x{}, y{}, z{};
 };
+WILT_INLINE Point8 operator+(const Point8& a, const Point8& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+WILT_INLINE Point8 operator-(const Point8& a, const Point8& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+WILT_INLINE Point8 operator*(const Double8& s, const Point8& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+WILT_INLINE Point8 operator*(double s, const Point8& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+WILT_INLINE Double8 dot(const Point8& a, const Point8& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 
 /// A point of an array that is gathered from, x y z 0: one load each.
 struct alignas(32) Point4 {
@@ -90,6 +106,14 @@ WILT_INLINE Point8 transpose(const PointOf& point) {
 /// The points of eight indices.
 WILT_INLINE Point8 gather(const Point4* points, const int* indices) {
   return transpose([&](int k) __attribute__((always_inline)) { return points[indices[k]].xyz; });
+}
+
+/// The points of eight indices, three numbers each.
+WILT_INLINE Point8 gather(const double* points, const int* indices) {
+  return transpose([&](int k) __attribute__((always_inline)) {
+    const double* p = points + 3 * static_cast<std::ptrdiff_t>(indices[k]);
+    return Double4{p[0], p[1], p[2], 0.0};
+  });
 }
 
 /// Eight points in a row.

@@ -6,14 +6,17 @@
 #include <cmath>
 
 #include "wilt/core/error.hpp"
+#include "wilt/mechanics/chebyshev_midpoint.hpp"
 #include "wilt/mechanics/newton_solve.hpp"
 
 namespace wilt {
 namespace {
 
-int first_not_finite(const Points3& values) {
-  for (int i = 0; i < values.rows(); ++i) {
-    if (!values.row(i).allFinite()) return i;
+int first_not_finite(const MotionState& state) {
+  for (int i = 0; i < state.positions.rows(); ++i) {
+    if (!state.positions.row(i).allFinite() || !state.velocities.row(i).allFinite() ||
+        !state.accelerations.row(i).allFinite() || !state.jerks.row(i).allFinite())
+      return i;
   }
   return -1;
 }
@@ -34,9 +37,12 @@ void MidpointOptions::validate() const {
 }
 
 ImplicitMidpoint::ImplicitMidpoint(System& system, const MidpointOptions& options)
-    : system_(&system), options_(options), matrix_(system.make_pattern()) {
+    : system_(&system), options_(options) {
   options.validate();
 }
+
+ImplicitMidpoint::~ImplicitMidpoint() = default;
+ImplicitMidpoint::ImplicitMidpoint(ImplicitMidpoint&&) noexcept = default;
 
 StepReport ImplicitMidpoint::step(MotionState& state, double dt) {
   const int n = system_->vertex_count();
@@ -45,53 +51,66 @@ StepReport ImplicitMidpoint::step(MotionState& state, double dt) {
   if (state.positions.rows() != n)
     throw Error(ErrorCode::configuration,
                 fmt::format("{} positions for {} masses; give one per vertex", state.positions.rows(), n));
-  MotionState next = state;
-  if (next.velocities.rows() != n) next.velocities.setZero(n, 3);
-  if (next.accelerations.rows() != n) next.accelerations.setZero(n, 3);
-
+  for (Points3* history : {&state.velocities, &state.accelerations, &state.jerks}) {
+    if (history->rows() != n) history->setZero(n, 3);
+  }
   StepReport report;
   report.dt = dt;
-  const int bad = std::max({first_not_finite(next.positions), first_not_finite(next.velocities),
-                            first_not_finite(next.accelerations)});
-  if (bad >= 0) {
-    report.converged = false;
-    report.reason = fmt::format("the motion of vertex {} is not finite before the step", bad);
-    return report;
-  }
-  report.converged = advance(next, dt, options_.max_halvings, report);
+  report.converged = solve(state, dt, report);
   if (report.converged) {
-    report.reason.clear();
-    state = std::move(next);
-    report.kinetic = system_->kinetic_energy(state.velocities);
-    report.energies = system_->energies(state.positions);
+    report.substeps = 1;
+  } else if (const int bad = first_not_finite(state); bad >= 0) {
+    report.reason = fmt::format("the motion of vertex {} is not finite before the step", bad);
+  } else {
+    MotionState next = state;
+    report.converged = halve(next, dt, options_.max_halvings, report);
+    if (report.converged) state = std::move(next);
   }
+  if (report.converged) report.reason.clear();
   return report;
 }
 
-bool ImplicitMidpoint::advance(MotionState& state, double dt, int halvings_left, StepReport& report) {
-  report.dt = std::min(report.dt, dt);
-  if (solve(state, dt, report)) {
-    ++report.substeps;
-    return true;
-  }
+bool ImplicitMidpoint::halve(MotionState& state, double dt, int halvings_left, StepReport& report) {
   if (halvings_left == 0) return false;
-  return advance(state, 0.5 * dt, halvings_left - 1, report) &&
-         advance(state, 0.5 * dt, halvings_left - 1, report);
+  for (int part = 0; part < 2; ++part) {
+    report.dt = std::min(report.dt, 0.5 * dt);
+    if (solve(state, 0.5 * dt, report))
+      ++report.substeps;
+    else if (!halve(state, 0.5 * dt, halvings_left - 1, report))
+      return false;
+  }
+  return true;
 }
 
 bool ImplicitMidpoint::solve(MotionState& state, double dt, StepReport& report) {
-  detail::NewtonSolve newton(*system_, options_, matrix_, state, dt, report);
+  if (solve_without_matrix(state, dt, report)) return true;
+  if (!matrix_) matrix_.emplace(system_->make_pattern());
+  detail::NewtonSolve newton(*system_, options_, *matrix_, state, dt, report);
   if (!newton.run()) return false;
   report.residual = std::max(report.residual, newton.relative_residual());
   const Points3& d = newton.displacement();
   for (int i = 0; i < d.rows(); ++i) {
     const Vec3 before = state.velocities.row(i).transpose();
     const Vec3 after = system_->pinned()[i] ? Vec3::Zero() : Vec3(2.0 / dt * d.row(i).transpose() - before);
+    const Vec3 acceleration = (after - before) / dt;
     state.positions.row(i) += d.row(i);
     state.velocities.row(i) = after.transpose();
-    state.accelerations.row(i) = (after - before).transpose() / dt;
+    state.jerks.row(i) = (acceleration.transpose() - state.accelerations.row(i)) / dt;
+    state.accelerations.row(i) = acceleration.transpose();
   }
   return true;
+}
+
+bool ImplicitMidpoint::solve_without_matrix(MotionState& state, double dt, StepReport& report) {
+  if (!system_->only_springs_and_loads()) return false;
+  if (without_matrix_ == nullptr || without_matrix_->network() != system_->springs())
+    without_matrix_ = std::make_unique<detail::ChebyshevMidpoint>(*system_->springs());
+  const detail::ChebyshevReport solved =
+      without_matrix_->solve(*system_, system_->loads(), state, dt, options_.tolerance);
+  report.linear += solved.passes;
+  if (solved.converged && solved.scale > 0.0)
+    report.residual = std::max(report.residual, solved.residual / solved.scale);
+  return solved.converged;
 }
 
 }  // namespace wilt
