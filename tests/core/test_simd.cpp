@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "wilt/core/simd.hpp"
@@ -9,14 +10,35 @@ namespace wilt {
 namespace {
 
 TEST(Simd, gathersThePointsOfItsIndices) {
-  std::vector<Double4> points;
-  for (int i = 0; i < 20; ++i) points.push_back(Double4{1.0 * i, 100.0 + i, 200.0 + i, -1.0});
+  std::vector<Point4> points;
+  for (int i = 0; i < 20; ++i) points.push_back({Double4{1.0 * i, 100.0 + i, 200.0 + i, -1.0}});
   const int indices[] = {3, 0, 19, 7, 7, 12, 1, 5};
   const Point8 p = simd::gather(points.data(), indices);
   for (int l = 0; l < simd::kLanes; ++l) {
     EXPECT_EQ(p.x[l], indices[l]);
     EXPECT_EQ(p.y[l], 100 + indices[l]);
     EXPECT_EQ(p.z[l], 200 + indices[l]);
+  }
+}
+
+TEST(Simd, storesPointsAsItLoadsThem) {
+  std::vector<Point4> points(8), copy(8);
+  for (int i = 0; i < 8; ++i) points[i].xyz = Double4{1.0 * i, 10.0 + i, 20.0 + i, 0.0};
+  simd::store_points(copy.data(), simd::load_points(points.data()));
+  for (int i = 0; i < 8; ++i) {
+    for (int k = 0; k < 4; ++k) EXPECT_EQ(copy[i].xyz[k], points[i].xyz[k]);
+  }
+}
+
+// Code for AVX-512 moves whole cache lines; an array that is not aligned to them makes it crash.
+TEST(Simd, arraysAreAligned) {
+  for (std::size_t n = 1; n < 20; ++n) {
+    const std::vector<Number8> numbers(n);
+    const std::vector<Point8> points(n);
+    const std::vector<Point4> gathered(n);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(numbers.data()) % 64, 0u);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(points.data()) % 64, 0u);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(gathered.data()) % 32, 0u);
   }
 }
 

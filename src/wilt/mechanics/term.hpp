@@ -3,6 +3,7 @@
 
 #include "wilt/core/types.hpp"
 #include "wilt/mechanics/block_matrix.hpp"
+#include "wilt/mechanics/spring_network.hpp"
 
 namespace wilt {
 
@@ -25,15 +26,26 @@ class Term {
   /// Looks up where the elements' blocks are; needed before a matrix of this pattern is filled.
   void bind(const BlockPattern& pattern) { slots_ = pattern.upper_slots(stencil_); }
 
+  /// Where the force is a law along edges (the rows of the stencil): adds its coefficients and returns true.
+  virtual bool add_edge_law(EdgeLaw&) const { return false; }
+
+  /// Whether the force depends neither on positions nor on velocities.
+  virtual bool is_load() const { return false; }
+
+  /// Grows whenever a coefficient of its edge law changes.
+  int revision() const { return revision_; }
+
  protected:
   explicit Term(Stencil stencil = {}) : stencil_(std::move(stencil)) {}
 
   int element_count() const { return static_cast<int>(stencil_.rows()); }
   const int* vertices(int element) const { return stencil_.row(element).data(); }
   const int* slots(int element) const { return slots_.row(element).data(); }
+  void changed() { ++revision_; }
 
  private:
   Stencil stencil_, slots_;
+  int revision_ = 0;
 };
 
 /// A conservative force: minus the gradient of energy(x), x #V x 3 in working lengths.

@@ -10,7 +10,7 @@
 namespace wilt {
 
 /// Points of the plane.
-struct Place16 {
+struct alignas(64) Place16 {
   Float16 x, y;
 };
 
@@ -31,7 +31,7 @@ WILT_INLINE Int16 floor_of(Float16 v) {
 }
 
 /// Random words that depend on a square (i, j) of the unit lattice and a seed alone.
-struct Lattice16 {
+struct alignas(64) Lattice16 {
   Word16 key;
 
   WILT_INLINE Lattice16(Int16 i, Int16 j, std::uint64_t seed)
@@ -100,7 +100,7 @@ WILT_INLINE Float16 wall_distance(const Place16& p, std::uint64_t seed) {
 }
 
 /// The network at points. Heights are 1 on a vein's axis and 0 in the tissue.
-struct FineNetwork16 {
+struct alignas(64) FineNetwork16 {
   Float16 tertiary, quaternary, areole;
   Float16 within;  ///< distance to the nearest tertiary vein, in sizes of a tertiary cell
 };

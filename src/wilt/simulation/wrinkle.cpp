@@ -129,20 +129,15 @@ Frames8 frames_at(const SurfaceMesh& mesh, const Points3& positions, const std::
   return frames;
 }
 
-WILT_INLINE Double8 dot(const Point8& a, const Point8& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 // c5 of eight vertices, in units of 1 / per_unit. `counts` of the vertices around; `indices` of them, eight a
 // step, the centre itself where there are no more: it adds to the count alone, which is known.
-WILT_CLONES void heights_over_quadrics(const Double4* points, const int* indices, int steps, const Frames8& f,
+WILT_CLONES void heights_over_quadrics(const Point4* points, const int* indices, int steps, const Frames8& f,
                                        const Double8& counts, double per_unit, Double8& heights) {
   constexpr int kTerms = 6;
   Double8 gram[kTerms][kTerms + 1] = {};  // the upper triangle, then the right-hand side
   for (int k = 0; k < steps; ++k) {
     const Point8 p = simd::gather(points, indices + simd::kLanes * k);
-    const Point8 r{(p.x - f.origin.x) * per_unit, (p.y - f.origin.y) * per_unit,
-                   (p.z - f.origin.z) * per_unit};
+    const Point8 r = per_unit * (p - f.origin);
     const Double8 x = dot(r, f.u), y = dot(r, f.w), z = dot(r, f.n);
     const Double8 basis[kTerms] = {x * x, x * y, y * y, x, y, Double8{} + 1.0};
     for (int i = 0; i < kTerms; ++i) {
@@ -150,7 +145,7 @@ WILT_CLONES void heights_over_quadrics(const Double4* points, const int* indices
       gram[i][kTerms] += basis[i] * z;
     }
   }
-  gram[kTerms - 1][kTerms - 1] = counts;
+  gram[kTerms - 1][kTerms - 1] = counts.lanes;
   // Elimination without pivots: the matrix is symmetric and positive definite.
   for (int k = 0; k + 1 < kTerms; ++k) {
     for (int i = k + 1; i < kTerms; ++i) {
@@ -158,7 +153,7 @@ WILT_CLONES void heights_over_quadrics(const Double4* points, const int* indices
       for (int j = i; j <= kTerms; ++j) gram[i][j] -= factor * gram[k][j];
     }
   }
-  heights = gram[kTerms - 1][kTerms] / (gram[kTerms - 1][kTerms - 1] + 1e-300);
+  heights.lanes = gram[kTerms - 1][kTerms] / (gram[kTerms - 1][kTerms - 1] + 1e-300);
 }
 
 }  // namespace
@@ -207,25 +202,25 @@ void WrinkleMeter::pack(const std::vector<Stencil>& stencils) {
 
 double WrinkleMeter::operator()(const Points3& positions) const {
   if (groups_.empty()) return 0.0;
-  std::vector<Double4> points;
+  std::vector<Point4> points;
   for (const VertexId v : sample_) {
     const auto p = positions.row(v);
-    points.push_back(Double4{p[0], p[1], p[2], 0.0});
+    points.push_back({Double4{p[0], p[1], p[2], 0.0}});
   }
   const double squares = parallel_sum(static_cast<int>(groups_.size()), 32, [&](int begin, int end) {
     double sum = 0.0;
     for (int i = begin; i < end; ++i) {
       const Group& group = groups_[static_cast<std::size_t>(i)];
-      Double8 counts, heights;
+      Number8 counts, heights;
       std::array<VertexId, 8> centres;
       for (std::size_t lane = 0; lane < centres.size(); ++lane) {
-        counts[lane] = group.counts[lane];
+        counts.lanes[lane] = group.counts[lane];
         centres[lane] = sample_[static_cast<std::size_t>(group.centres[lane])];
       }
       heights_over_quadrics(points.data(), &indices_[group.first], group.steps,
                             frames_at(mesh_, positions, centres), counts, 1.0 / (kRadius * length_), heights);
       for (int lane = 0; lane < std::min(simd::kLanes, centre_count_ - simd::kLanes * i); ++lane)
-        sum += heights[lane] * heights[lane];
+        sum += heights.lanes[lane] * heights.lanes[lane];
     }
     return sum;
   });
