@@ -132,7 +132,7 @@ Frames8 frames_at(const SurfaceMesh& mesh, const Points3& positions, const std::
 // c5 of eight vertices, in units of 1 / per_unit. `counts` of the vertices around; `indices` of them, eight a
 // step, the centre itself where there are no more: it adds to the count alone, which is known.
 WILT_CLONES void heights_over_quadrics(const Point4* points, const int* indices, int steps, const Frames8& f,
-                                       const Double8& counts, double per_unit, Double8& heights) {
+                                       const Number8& counts, double per_unit, Number8& heights) {
   constexpr int kTerms = 6;
   Double8 gram[kTerms][kTerms + 1] = {};  // the upper triangle, then the right-hand side
   for (int k = 0; k < steps; ++k) {
