@@ -63,8 +63,8 @@ def run(scenario, limit=600):
     if row.get("error_occurred"):
         raise Failed(row["error_message"])
     counters = {key: value for key, value in row.items() if isinstance(value, (int, float))}
-    unit = SECONDS[row["time_unit"]]
-    return Sample(unit * row["real_time"], row.get("cpu_time", 0.0) / max(row["real_time"], 1e-300), counters)
+    seconds = counters.get("median_seconds", SECONDS[row["time_unit"]] * row["real_time"])
+    return Sample(seconds, row.get("cpu_time", 0.0) / max(row["real_time"], 1e-300), counters)
 
 
 @dataclasses.dataclass

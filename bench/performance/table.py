@@ -87,6 +87,10 @@ def measure(row, quick):
     fastest = dict(zip(row.peers, peers)).get(row.fastest_peer)
     if not fastest or not ours.samples:
         return
+    if row.per_spring and fastest.scenario.name.endswith(row.scenario.name.split("/")[1]):
+        edge, theirs = ours.counter("edge"), fastest.counter("edge")
+        if abs(edge - theirs) > 1e-3 * theirs:
+            row.doubt = "another motion than the peer's"
     if row.error_factor:
         error, theirs = ours.counter("mean_error"), fastest.counter("mean_error")
         row.notes.append(f"mean error {error:.2g}, the peer's {theirs:.2g}")
