@@ -23,6 +23,16 @@ int first_not_finite(const MotionState& state) {
 
 }  // namespace
 
+void detail::begin_step(MotionState& state, const System& system, double dt) {
+  const int n = system.vertex_count();
+  if (!(dt > 0.0) || !std::isfinite(dt))
+    throw Error(ErrorCode::configuration, fmt::format("the time step is {}; it must be above 0", dt));
+  if (state.positions.rows() != n)
+    throw Error(ErrorCode::configuration,
+                fmt::format("{} positions for {} masses; give one per vertex", state.positions.rows(), n));
+  state.complete(n);
+}
+
 void MidpointOptions::validate() const {
   if (!(tolerance > 0.0) || !(tolerance < 1.0))
     throw Error(ErrorCode::configuration,
@@ -45,15 +55,7 @@ ImplicitMidpoint::~ImplicitMidpoint() = default;
 ImplicitMidpoint::ImplicitMidpoint(ImplicitMidpoint&&) noexcept = default;
 
 StepReport ImplicitMidpoint::step(MotionState& state, double dt) {
-  const int n = system_->vertex_count();
-  if (!(dt > 0.0) || !std::isfinite(dt))
-    throw Error(ErrorCode::configuration, fmt::format("the time step is {}; it must be above 0", dt));
-  if (state.positions.rows() != n)
-    throw Error(ErrorCode::configuration,
-                fmt::format("{} positions for {} masses; give one per vertex", state.positions.rows(), n));
-  for (Points3* history : {&state.velocities, &state.accelerations, &state.jerks}) {
-    if (history->rows() != n) history->setZero(n, 3);
-  }
+  detail::begin_step(state, *system_, dt);
   StepReport report;
   report.dt = dt;
   report.converged = solve(state, dt, report);
@@ -104,10 +106,10 @@ bool ImplicitMidpoint::solve(MotionState& state, double dt, StepReport& report) 
 bool ImplicitMidpoint::solve_without_matrix(MotionState& state, double dt, StepReport& report) {
   if (!system_->only_springs_and_loads()) return false;
   if (without_matrix_ == nullptr || without_matrix_->network() != system_->springs())
-    without_matrix_ = std::make_unique<detail::ChebyshevMidpoint>(*system_->springs());
+    without_matrix_ = std::make_unique<detail::ChebyshevMidpoint<SpringNetwork>>(*system_->springs());
   system_->loads(state.positions, load_);
   const detail::ChebyshevReport solved =
-      without_matrix_->solve(*system_, load_, state, dt, options_.tolerance);
+      without_matrix_->solve({{{system_, &load_, &state}}}, dt, options_.tolerance)[0];
   report.linear += solved.passes;
   if (solved.converged && solved.scale > 0.0)
     report.residual = std::max(report.residual, solved.residual / solved.scale);
