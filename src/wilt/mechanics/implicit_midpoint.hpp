@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "wilt/mechanics/system.hpp"
@@ -11,7 +10,8 @@ namespace wilt {
 
 namespace detail {
 class ChebyshevMidpoint;
-}
+class NewtonSolve;
+}  // namespace detail
 
 struct MidpointOptions {
   double tolerance = 1e-8;  ///< of the residual, relative to the step's force scale, (0, 1)
@@ -63,8 +63,8 @@ class ImplicitMidpoint {
 
   System* system_;
   MidpointOptions options_;
-  std::optional<BlockMatrix> matrix_;                          // made when first needed
-  std::unique_ptr<detail::ChebyshevMidpoint> without_matrix_;  // the same
+  std::unique_ptr<detail::ChebyshevMidpoint> without_matrix_;  // made when first needed
+  std::unique_ptr<detail::NewtonSolve> newton_;                // the same
 };
 
 }  // namespace wilt
