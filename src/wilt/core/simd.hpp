@@ -31,6 +31,11 @@ using Double8 = double __attribute__((vector_size(64)));
 using Mask8 = long __attribute__((vector_size(64)));  ///< all bits of a lane, or none
 using Double4 = double __attribute__((vector_size(32)));
 
+/// Sixteen floats, for what ends as eight bits a channel, and as many whole numbers (bits of a random word).
+using Float16 = float __attribute__((vector_size(64)));
+using Int16 = int __attribute__((vector_size(64)));
+using Word16 = unsigned __attribute__((vector_size(64)));
+
 /// Eight numbers of an array.
 struct alignas(64) Number8 {
   Double8 lanes{};
@@ -74,10 +79,24 @@ WILT_INLINE Double8 load(const double* from) {
 WILT_INLINE void store(double* to, Double8 v) {
   std::memcpy(to, &v, sizeof v);
 }
+WILT_INLINE Float16 load(const float* from) {
+  Float16 v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+WILT_INLINE void store(float* to, Float16 v) {
+  std::memcpy(to, &v, sizeof v);
+}
 
 WILT_INLINE Double8 sqrt(Double8 v) {
   Double8 r;
   for (int l = 0; l < kLanes; ++l) r[l] = std::sqrt(v[l]);
+  return r;
+}
+
+WILT_INLINE Float16 sqrt(Float16 v) {
+  Float16 r;
+  for (int l = 0; l < 2 * kLanes; ++l) r[l] = std::sqrt(v[l]);
   return r;
 }
 

@@ -65,6 +65,7 @@ class ImplicitMidpoint {
   MidpointOptions options_;
   std::unique_ptr<detail::ChebyshevMidpoint> without_matrix_;  // made when first needed
   std::unique_ptr<detail::NewtonSolve> newton_;                // the same
+  Points3 load_;
 };
 
 }  // namespace wilt

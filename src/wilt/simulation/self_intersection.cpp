@@ -60,54 +60,68 @@ bool share_a_vertex(const Faces& faces, int f, int g) {
   return false;
 }
 
-struct Entry {
-  std::uint64_t cell;
-  int face;
+struct Cell {
+  int x, y, z;
 };
 
-// Cells of a grid whose size is the largest triangle's box, so that a box lies in at most eight of them.
+// Triangles by the cell of a grid in which the middle of their box lies. A cell is as large as the largest
+// box, so what meets a triangle lies in its cell or in those around it. Cells next to each other along x
+// stand next to each other in a table into which the whole grid is wrapped.
 class CellGrid {
  public:
-  explicit CellGrid(const std::vector<Box>& boxes) {
+  explicit CellGrid(const std::vector<Box>& boxes) : cells_(boxes.size()), faces_(boxes.size()) {
     Box all;
     for (const Box& box : boxes) {
       all.extend(box);
       size_ = std::max(size_, box.sizes().maxCoeff());
     }
-    origin_ = all.min();
-    if (!(size_ > 0.0)) size_ = 1.0;
-    for (int f = 0; f < static_cast<int>(boxes.size()); ++f) {
-      visit_cells(boxes[f], [&](std::uint64_t cell) { entries_.push_back({cell, f}); });
+    size_ = size_ > 0.0 ? size_ * (1.0 + 1e-9) : 1.0;
+    std::size_t slots = 64;
+    while (slots < boxes.size()) slots *= 2;
+    mask_ = slots - 1;
+    starts_.assign(slots + 1, 0);
+    for (std::size_t f = 0; f < boxes.size(); ++f) {
+      const Eigen::Vector3i c =
+          ((boxes[f].center() - all.min()) / size_).array().floor().cast<int>().matrix();
+      cells_[f] = {c.x(), c.y(), c.z()};
+      ++starts_[slot(cells_[f]) + 1];
     }
-    std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-      return a.cell != b.cell ? a.cell < b.cell : a.face < b.face;
-    });
+    for (std::size_t i = 0; i < slots; ++i) starts_[i + 1] += starts_[i];
+    std::vector<int> filled(starts_.begin(), starts_.end() - 1);
+    for (std::size_t f = 0; f < boxes.size(); ++f)
+      faces_[static_cast<std::size_t>(filled[slot(cells_[f])]++)] = static_cast<int>(f);
   }
 
-  const std::vector<Entry>& entries() const { return entries_; }
-
-  /// The one cell that reports a pair of overlapping boxes: that of the overlap's lower corner.
-  std::uint64_t home_of(const Box& a, const Box& b) const { return key(cell_of(a.min().cwiseMax(b.min()))); }
-
- private:
+  /// Calls visit(g) for every triangle g > f in the cells in and around that of f.
   template <class Visit>
-  void visit_cells(const Box& box, Visit&& visit) const {
-    const Eigen::Vector3i low = cell_of(box.min()), high = cell_of(box.max());
-    for (int x = low.x(); x <= high.x(); ++x) {
-      for (int y = low.y(); y <= high.y(); ++y) {
-        for (int z = low.z(); z <= high.z(); ++z) visit(key({x, y, z}));
+  void visit_near(int f, Visit&& visit) const {
+    const Cell& cell = cells_[static_cast<std::size_t>(f)];
+    for (int z = cell.z - 1; z <= cell.z + 1; ++z) {
+      for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
+        for (int x = cell.x - 1; x <= cell.x + 1; ++x) {
+          const std::size_t place = slot({x, y, z});
+          for (int i = starts_[place]; i < starts_[place + 1]; ++i) {
+            const int g = faces_[static_cast<std::size_t>(i)];
+            const Cell& other = cells_[static_cast<std::size_t>(g)];
+            if (g > f && other.x == x && other.y == y && other.z == z) visit(g);
+          }
+        }
       }
     }
   }
-  Eigen::Vector3i cell_of(const Vec3& p) const { return ((p - origin_) / size_).array().floor().cast<int>(); }
-  static std::uint64_t key(const Eigen::Vector3i& c) {
-    return static_cast<std::uint64_t>(c.x()) << 42 | static_cast<std::uint64_t>(c.y()) << 21 |
-           static_cast<std::uint64_t>(c.z());
+
+ private:
+  std::size_t slot(const Cell& cell) const {
+    return (static_cast<std::size_t>(cell.x) + static_cast<std::size_t>(cell.y) * 0x9e3779b1u +
+            static_cast<std::size_t>(cell.z) * 0x85ebca77u) &
+           mask_;
   }
 
-  Vec3 origin_ = Vec3::Zero();
   double size_ = 0.0;
-  std::vector<Entry> entries_;
+  std::size_t mask_ = 0;
+  std::vector<Cell> cells_;  // of each triangle
+  std::vector<int> starts_;  // of each slot, in faces_
+  std::vector<int> faces_;
 };
 
 }  // namespace
@@ -115,21 +129,21 @@ class CellGrid {
 int count_self_intersections(const Faces& faces, const Points3& positions) {
   if (!positions.allFinite()) return 0;
   const int face_count = static_cast<int>(faces.rows());
-  std::vector<Box> boxes(face_count);
-  for (int f = 0; f < face_count; ++f) boxes[f] = box_of(triangle_of(faces, positions, f));
+  std::vector<Box> boxes(static_cast<std::size_t>(face_count));
+  parallel_for(face_count, 4096, [&](int begin, int end) {
+    for (int f = begin; f < end; ++f)
+      boxes[static_cast<std::size_t>(f)] = box_of(triangle_of(faces, positions, f));
+  });
   const CellGrid grid(boxes);
-  const std::vector<Entry>& entries = grid.entries();
-
   std::atomic<int> count{0};  // a sum of integers does not depend on the order
-  parallel_for(static_cast<int>(entries.size()), 4096, [&](int begin, int end) {
+  parallel_for(face_count, 1024, [&](int begin, int end) {
     int found = 0;
-    for (int i = begin; i < end; ++i) {
-      for (std::size_t j = i + 1; j < entries.size() && entries[j].cell == entries[i].cell; ++j) {
-        const int f = entries[i].face, g = entries[j].face;
-        if (!boxes[f].intersects(boxes[g]) || grid.home_of(boxes[f], boxes[g]) != entries[i].cell) continue;
-        if (share_a_vertex(faces, f, g)) continue;
+    for (int f = begin; f < end; ++f) {
+      const Box& box = boxes[static_cast<std::size_t>(f)];
+      grid.visit_near(f, [&](int g) {
+        if (!box.intersects(boxes[static_cast<std::size_t>(g)]) || share_a_vertex(faces, f, g)) return;
         if (triangles_intersect(triangle_of(faces, positions, f), triangle_of(faces, positions, g))) ++found;
-      }
+      });
     }
     count += found;
   });

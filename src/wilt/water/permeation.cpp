@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "wilt/core/error.hpp"
@@ -21,23 +22,25 @@ using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 constexpr int kMaxIterations = 1000;
 
-void require(bool good, const std::string& message) {
-  if (!good) throw Error(ErrorCode::simulation, message);
+// The message is made only when it is needed: there is one check for every cell and step.
+template <class... Values>
+void require(bool good, fmt::format_string<Values...> message, Values&&... values) {
+  if (!good) throw Error(ErrorCode::simulation, fmt::format(message, std::forward<Values>(values)...));
 }
 
 void check_cells(const Eigen::VectorXd& dry, const Eigen::VectorXd& water, const Eigen::VectorXd& loss,
                  double dt, Eigen::Index cells) {
-  require(dt > 0.0 && std::isfinite(dt), fmt::format("the time step is {}; it must be above 0", dt));
+  require(dt > 0.0 && std::isfinite(dt), "the time step is {}; it must be above 0", dt);
   require(dry.size() == cells && water.size() == cells && loss.size() == cells,
-          fmt::format("{} dry masses, {} waters and {} losses for {} cells; give one per cell", dry.size(),
-                      water.size(), loss.size(), cells));
+          "{} dry masses, {} waters and {} losses for {} cells; give one per cell", dry.size(), water.size(),
+          loss.size(), cells);
   for (int i = 0; i < cells; ++i) {
-    require(dry[i] > 0.0 && std::isfinite(dry[i]),
-            fmt::format("the dry mass of cell {} is {}; it must be above 0", i, dry[i]));
-    require(water[i] >= 0.0 && std::isfinite(water[i]),
-            fmt::format("the water of cell {} is {}; it must be 0 or more", i, water[i]));
-    require(loss[i] >= 0.0 && std::isfinite(loss[i]),
-            fmt::format("the loss of cell {} is {}; it must be 0 or more", i, loss[i]));
+    require(dry[i] > 0.0 && std::isfinite(dry[i]), "the dry mass of cell {} is {}; it must be above 0", i,
+            dry[i]);
+    require(water[i] >= 0.0 && std::isfinite(water[i]), "the water of cell {} is {}; it must be 0 or more", i,
+            water[i]);
+    require(loss[i] >= 0.0 && std::isfinite(loss[i]), "the loss of cell {} is {}; it must be 0 or more", i,
+            loss[i]);
   }
 }
 
@@ -192,9 +195,8 @@ WaterReport Permeation::printed_step(const Eigen::VectorXd& dry, Eigen::VectorXd
   for (int i = 0; i < next.size(); ++i) {
     const double divisor = 1.0 - dt * laplacian[i];
     require(divisor > 0.0,
-            fmt::format("the printed permeation divides cell {} by {}; take a smaller step or the "
-                        "conservative form",
-                        i, divisor));
+            "the printed permeation divides cell {} by {}; take a smaller step or the conservative form", i,
+            divisor);
     next[i] /= divisor;
   }
   WaterReport report = impl_->bound(next, dt * loss.sum());
