@@ -86,11 +86,10 @@ bool ImplicitMidpoint::halve(MotionState& state, double dt, int halvings_left, S
 
 bool ImplicitMidpoint::solve(MotionState& state, double dt, StepReport& report) {
   if (solve_without_matrix(state, dt, report)) return true;
-  if (!matrix_) matrix_.emplace(system_->make_pattern());
-  detail::NewtonSolve newton(*system_, options_, *matrix_, state, dt, report);
-  if (!newton.run()) return false;
-  report.residual = std::max(report.residual, newton.relative_residual());
-  const Points3& d = newton.displacement();
+  if (newton_ == nullptr) newton_ = std::make_unique<detail::NewtonSolve>(*system_, options_);
+  if (!newton_->run(state, dt, report)) return false;
+  report.residual = std::max(report.residual, newton_->relative_residual());
+  const Points3& d = newton_->displacement();
   for (int i = 0; i < d.rows(); ++i) {
     const Vec3 before = state.velocities.row(i).transpose();
     const Vec3 after = system_->pinned()[i] ? Vec3::Zero() : Vec3(2.0 / dt * d.row(i).transpose() - before);

@@ -182,7 +182,6 @@ void System::assemble(const Points3& x, const Points3& v, double position_scale,
   for (const auto& [name, energy] : energies_) energy->add_hessian(x, matrix, position_scale, curvature);
   for (const auto& [name, force] : forces_)
     force->add_jacobian(x, v, matrix, position_scale, velocity_scale, curvature);
-  matrix.finish();
 }
 
 }  // namespace wilt
