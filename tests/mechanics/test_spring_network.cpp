@@ -100,16 +100,20 @@ TEST(SpringNetwork, IsTheSumOfItsTerms) {
   damping.add_force(sheet.positions, v, expected);
   swelling.add_force(sheet.positions, v, expected);
 
-  EdgeLaw law(e);
-  for (const Term* term : {static_cast<const Term*>(&springs), static_cast<const Term*>(&tension),
-                           static_cast<const Term*>(&damping), static_cast<const Term*>(&swelling)})
-    EXPECT_TRUE(term->add_edge_law(law));
   SpringNetwork network(n, sheet.edges);
-  network.set_law(law);
+  for (const EdgeLaw::Part part : {EdgeLaw::Part::stiffness, EdgeLaw::Part::push}) {
+    EdgeLaw law;
+    law.set_zero(e, part);
+    for (const Term* term : {static_cast<const Term*>(&springs), static_cast<const Term*>(&tension),
+                             static_cast<const Term*>(&damping), static_cast<const Term*>(&swelling)})
+      EXPECT_TRUE(term->add_edge_law(law, part));
+    network.set_law(law, part);
+    law.set_zero(e - 1, part);
+    EXPECT_THROW(network.set_law(law, part), Error);
+  }
   Points3 force = Points3::Zero(n, 3);
   network.add_force(sheet.positions, v, force);
   EXPECT_LT((force - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff());
-  EXPECT_THROW(network.set_law(EdgeLaw(e - 1)), Error);
 }
 
 // Oracle: definition; what a setter changes is felt by the next force, and a second set of edges stays apart.

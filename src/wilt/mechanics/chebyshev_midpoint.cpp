@@ -141,7 +141,7 @@ struct IterationPass {
   const EdgeRows* rows;
   const Number8 *pull, *push;
   double alpha, beta;
-  const Number8* weight;
+  const Number8 *weight, *inertia;
   const Point8* constant;
   const Point4* u;
   Point4* u_next;
@@ -158,9 +158,8 @@ WILT_CLONES double iterate_groups(const IterationPass& pass, int begin, int end)
       const Point8 edge = simd::gather(pass.u, pass.rows->neighbours.data() + kLanes * s) - u;
       f = f + (pass.pull[s].lanes - pass.push[s].lanes / simd::sqrt(dot(edge, edge) + kTiny)) * edge;
     }
-    const Double8 w = pass.weight[g].lanes, inertia = w > 0.0 ? 1.0 / w : Double8{};
-    const Point8 r = pass.constant[g] + w * f - u;
-    sum += inertia * inertia * dot(r, r);
+    const Point8 r = pass.constant[g] + pass.weight[g].lanes * f - u, residual = pass.inertia[g].lanes * r;
+    sum += dot(residual, residual);
     const Point8 p = pass.alpha * r + pass.beta * pass.direction[g];
     pass.direction[g] = p;
     simd::store_points(pass.u_next + kLanes * g, u + p);
@@ -219,6 +218,7 @@ ChebyshevMidpoint::ChebyshevMidpoint(const SpringNetwork& network)
       stretch_sum_(network.rows().group_count()),
       damping_sum_(stretch_sum_.size()),
       weight_(stretch_sum_.size()),
+      inertia_(stretch_sum_.size()),
       start_(network.rows().row_count()),
       u_(start_.size()),
       u_next_(start_.size()),
@@ -253,7 +253,9 @@ ChebyshevMidpoint::Scales ChebyshevMidpoint::begin(Crew& crew, const System& sys
     for (int row = kLanes * begin; row < kLanes * end; ++row) {
       const int v = rows.vertices[row];
       const bool free = row < rows.vertex_count() && !system.pinned()[v];
-      weight_[row / kLanes].lanes[row % kLanes] = free ? 0.25 * dt * dt / system.masses()[v] : 0.0;
+      const double inertia = free ? 4.0 / (dt * dt) * system.masses()[v] : 0.0;
+      inertia_[row / kLanes].lanes[row % kLanes] = inertia;
+      weight_[row / kLanes].lanes[row % kLanes] = free ? 1.0 / inertia : 0.0;
     }
     squares[block] = begin_groups(
         {rows.vertices.data(), state.positions.data(), state.velocities.data(), state.accelerations.data(),
@@ -302,9 +304,17 @@ void ChebyshevMidpoint::take_off_damping(Crew& crew) {
 // Moves on along p; returns ||R|| where it stood.
 double ChebyshevMidpoint::pass(Crew& crew, double alpha, double beta) {
   const EdgeRows& rows = network_.rows();
-  const IterationPass pass{&rows,          pull_.data(),     network_.push(),  alpha,
-                           beta,           weight_.data(),   constant_.data(), u_.data(),
-                           u_next_.data(), direction_.data()};
+  const IterationPass pass{.rows = &rows,
+                           .pull = pull_.data(),
+                           .push = network_.push(),
+                           .alpha = alpha,
+                           .beta = beta,
+                           .weight = weight_.data(),
+                           .inertia = inertia_.data(),
+                           .constant = constant_.data(),
+                           .u = u_.data(),
+                           .u_next = u_next_.data(),
+                           .direction = direction_.data()};
   std::vector<double> sums((rows.group_count() + kGroups - 1) / kGroups);
   for_blocks(crew, rows.group_count(),
              [&](int block, int begin, int end) { sums[block] = iterate_groups(pass, begin, end); });

@@ -64,9 +64,9 @@ class ChebyshevMidpoint {
   double dt_ = 0.0;                                 // the step, that the next three belong to
   std::vector<Number8> pull_;                       // per slot: stretch + 2/dt damping
   std::vector<Number8> stretch_sum_, damping_sum_;  // per group: over the slots; the second times 2/dt
-  std::vector<Number8> weight_;                     // per group: dt^2 / (4 m), 0 where pinned
-  std::vector<Point4> start_, u_, u_next_;          // per row: x0, u and the u of the next pass
-  std::vector<Point8> constant_, direction_;        // per group: r's part that does not depend on u, and p
+  std::vector<Number8> weight_, inertia_;     // per group: w = dt^2 / (4 m) and 1/w, both 0 where pinned
+  std::vector<Point4> start_, u_, u_next_;    // per row: x0, u and the u of the next pass
+  std::vector<Point8> constant_, direction_;  // per group: r's part that does not depend on u, and p
 };
 
 }  // namespace wilt::detail

@@ -75,19 +75,22 @@ void Springs::set_rest_lengths(const Eigen::VectorXd& rest_lengths) {
   require_count("rest lengths", rest_lengths.size(), edge_count());
   require_values("the rest length of spring", rest_lengths, 0.0, true);
   rest_lengths_ = rest_lengths;
-  changed();
+  changed(EdgeLaw::Part::push);
 }
 
 void Springs::set_stiffness(const Eigen::VectorXd& stiffness) {
   require_count("stiffnesses", stiffness.size(), edge_count());
   require_values("the stiffness of spring", stiffness, 0.0, false);
   stiffness_ = stiffness;
-  changed();
+  changed(EdgeLaw::Part::stiffness);
+  changed(EdgeLaw::Part::push);
 }
 
-bool Springs::add_edge_law(EdgeLaw& law) const {
-  law.stretch += stiffness_;
-  law.push.colwise() += stiffness_.cwiseProduct(rest_lengths_);
+bool Springs::add_edge_law(EdgeLaw& law, EdgeLaw::Part part) const {
+  if (part == EdgeLaw::Part::stiffness)
+    law.stretch += stiffness_;
+  else
+    for (int side = 0; side < 2; ++side) law.push.col(side) += stiffness_.cwiseProduct(rest_lengths_);
   return true;
 }
 
@@ -111,14 +114,12 @@ void StrainLimit::set_rest_lengths(const Eigen::VectorXd& rest_lengths) {
   require_count("rest lengths", rest_lengths.size(), edge_count());
   require_values("the rest length of edge", rest_lengths, 0.0, true);
   rest_lengths_ = rest_lengths;
-  changed();
 }
 
 void StrainLimit::set_stiffness(const Eigen::VectorXd& stiffness) {
   require_count("stiffnesses", stiffness.size(), edge_count());
   require_values("the limiting stiffness of edge", stiffness, 0.0, false);
   stiffness_ = stiffness;
-  changed();
 }
 
 EdgeEnergy::Radial StrainLimit::radial(int edge, double length) const {
@@ -137,11 +138,11 @@ void LineTension::set_coefficients(const Eigen::VectorXd& coefficients) {
   require_count("coefficients", coefficients.size(), edge_count());
   require_finite("the line tension of edge", coefficients);
   coefficients_ = coefficients;
-  changed();
+  changed(EdgeLaw::Part::push);
 }
 
-bool LineTension::add_edge_law(EdgeLaw& law) const {
-  law.push.colwise() += coefficients_;
+bool LineTension::add_edge_law(EdgeLaw& law, EdgeLaw::Part part) const {
+  if (part == EdgeLaw::Part::push) law.push.colwise() += coefficients_;
   return true;
 }
 

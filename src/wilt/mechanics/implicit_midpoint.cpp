@@ -105,8 +105,9 @@ bool ImplicitMidpoint::solve_without_matrix(MotionState& state, double dt, StepR
   if (!system_->only_springs_and_loads()) return false;
   if (without_matrix_ == nullptr || without_matrix_->network() != system_->springs())
     without_matrix_ = std::make_unique<detail::ChebyshevMidpoint>(*system_->springs());
+  system_->loads(state.positions, load_);
   const detail::ChebyshevReport solved =
-      without_matrix_->solve(*system_, system_->loads(), state, dt, options_.tolerance);
+      without_matrix_->solve(*system_, load_, state, dt, options_.tolerance);
   report.linear += solved.passes;
   if (solved.converged && solved.scale > 0.0)
     report.residual = std::max(report.residual, solved.residual / solved.scale);

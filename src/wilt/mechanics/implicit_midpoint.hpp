@@ -65,6 +65,7 @@ class ImplicitMidpoint {
   MidpointOptions options_;
   std::optional<BlockMatrix> matrix_;                          // made when first needed
   std::unique_ptr<detail::ChebyshevMidpoint> without_matrix_;  // the same
+  Points3 load_;
 };
 
 }  // namespace wilt

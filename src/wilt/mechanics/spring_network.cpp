@@ -46,25 +46,24 @@ WILT_CLONES void force_on_groups(const Pass& pass, int begin, int end, Point4* f
 }  // namespace
 
 SpringNetwork::SpringNetwork(int vertex_count, const Edges& edges)
-    : rows_(vertex_count, edges),
-      law_(static_cast<int>(edges.rows())),
+    : edge_count_(static_cast<int>(edges.rows())),
+      rows_(vertex_count, edges),
       stretch_(rows_.slot_count()),
       push_(rows_.slot_count()),
       damping_(rows_.slot_count()) {}
 
-void SpringNetwork::set_law(const EdgeLaw& law) {
-  detail::require_count("stretches", law.stretch.size(), law_.stretch.size());
-  detail::require_count("pairs of pushes", law.push.rows(), law_.push.rows());
-  detail::require_count("dampings", law.damping.size(), law_.damping.size());
-  // Most steps change the pushes alone.
-  if (law.push != law_.push) spread(law.push.data(), static_cast<int>(law.push.rows()), push_);
-  if (law.stretch != law_.stretch || law.damping != law_.damping) {
-    spread(law.stretch.data(), 0, stretch_);
-    spread(law.damping.data(), 0, damping_);
-    damped_ = (law.damping.array() != 0.0).any();
-    ++stiffness_revision_;
+void SpringNetwork::set_law(const EdgeLaw& law, EdgeLaw::Part part) {
+  if (part == EdgeLaw::Part::push) {
+    detail::require_count("pairs of pushes", law.push.rows(), edge_count_);
+    spread(law.push.data(), edge_count_, push_);
+    return;
   }
-  law_ = law;
+  detail::require_count("stretches", law.stretch.size(), edge_count_);
+  detail::require_count("dampings", law.damping.size(), edge_count_);
+  spread(law.stretch.data(), 0, stretch_);
+  spread(law.damping.data(), 0, damping_);
+  damped_ = (law.damping.array() != 0.0).any();
+  ++stiffness_revision_;
 }
 
 // To every slot the value of its edge's end: of_edge[edge + stride * (0 or 1)].

@@ -14,16 +14,23 @@ namespace wilt {
 ///
 ///     F_i = sum_j (stretch - push_i / |x_ij|) x_ij + damping v_ij,   x_ij = x_j - x_i, v_ij = v_j - v_i.
 ///
-/// A spring has stretch k and push k L; swelling is a push; damping is the paper's. Laws add up.
+/// A spring has stretch k and push k L; swelling is a push; damping is the paper's. Laws add up, and their
+/// parts change apart: pushes in every step, stiffness seldom.
 struct EdgeLaw {
-  explicit EdgeLaw(int edge_count)
-      : stretch(Eigen::VectorXd::Zero(edge_count)),
-        push(Eigen::MatrixX2d::Zero(edge_count, 2)),
-        damping(Eigen::VectorXd::Zero(edge_count)) {}
+  enum class Part { stiffness, push };
 
-  Eigen::VectorXd stretch;  ///< #E, force per length
-  Eigen::MatrixX2d push;    ///< #E x 2, force; column k acts on edges(e, k)
-  Eigen::VectorXd damping;  ///< #E, force per velocity
+  Eigen::VectorXd stretch;  ///< #E, force per length; of the part stiffness
+  Eigen::VectorXd damping;  ///< #E, force per velocity; of the part stiffness
+  Eigen::MatrixX2d push;    ///< #E x 2, force; column k acts on edges(e, k); of the part push
+
+  void set_zero(int edge_count, Part part) {
+    if (part == Part::push) {
+      push.setZero(edge_count, 2);
+    } else {
+      stretch.setZero(edge_count);
+      damping.setZero(edge_count);
+    }
+  }
 };
 
 /// The sum of a law's forces over the edges at every vertex: each vertex gathers its neighbours, so the work
@@ -33,8 +40,8 @@ class SpringNetwork {
   /// `edges` #E x 2, indices in [0, vertex_count). The law is zero at first.
   SpringNetwork(int vertex_count, const Edges& edges);
 
-  /// Throws Error{configuration} for a wrong count.
-  void set_law(const EdgeLaw& law);
+  /// Takes over a part of a law. Throws Error{configuration} for a wrong count.
+  void set_law(const EdgeLaw& law, EdgeLaw::Part part);
 
   /// force += F, #V x 3 each.
   void add_force(const Points3& x, const Points3& v, Points3& force) const;
@@ -45,13 +52,13 @@ class SpringNetwork {
   const Number8* push() const { return push_.data(); }        ///< per slot
   const Number8* damping() const { return damping_.data(); }  ///< per slot
   bool damped() const { return damped_; }
-  int stiffness_revision() const { return stiffness_revision_; }  ///< grows when stretch or damping changes
+  int stiffness_revision() const { return stiffness_revision_; }  ///< grows when that part changes
 
  private:
   void spread(const double* of_edge, int stride, std::vector<Number8>& slots) const;
 
+  int edge_count_;
   detail::EdgeRows rows_;
-  EdgeLaw law_;
   std::vector<Number8> stretch_, push_, damping_;
   bool damped_ = false;
   int stiffness_revision_ = 0;

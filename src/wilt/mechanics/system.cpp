@@ -54,13 +54,15 @@ std::shared_ptr<const BlockPattern> System::make_pattern() {
 const SpringNetwork* System::springs() const {
   if (!springs_) find_edge_laws();
   if (springs_->terms.empty()) return nullptr;
-  int revision = 0;
-  for (const Term* term : springs_->terms) revision += term->revision();
-  if (springs_->revision != revision) {
-    EdgeLaw law(static_cast<int>(springs_->terms.front()->stencil().rows()));
-    for (const Term* term : springs_->terms) term->add_edge_law(law);
-    springs_->network->set_law(law);
-    springs_->revision = revision;
+  for (const EdgeLaw::Part part : {EdgeLaw::Part::stiffness, EdgeLaw::Part::push}) {
+    int revision = 0;
+    for (const Term* term : springs_->terms) revision += term->revision(part);
+    int& known = springs_->revisions[static_cast<int>(part)];
+    if (known == revision) continue;
+    known = revision;
+    springs_->law.set_zero(static_cast<int>(springs_->terms.front()->stencil().rows()), part);
+    for (const Term* term : springs_->terms) term->add_edge_law(springs_->law, part);
+    springs_->network->set_law(springs_->law, part);
   }
   return &*springs_->network;
 }
@@ -74,8 +76,9 @@ void System::find_edge_laws() const {
   for (const Term* term : terms) {
     const Stencil& stencil = term->stencil();
     if (stencil.cols() != 2) continue;
-    EdgeLaw law(static_cast<int>(stencil.rows()));
-    if (!term->add_edge_law(law)) continue;
+    EdgeLaw law;
+    law.set_zero(static_cast<int>(stencil.rows()), EdgeLaw::Part::push);
+    if (!term->add_edge_law(law, EdgeLaw::Part::push)) continue;
     if (springs_->terms.empty()) springs_->network.emplace(vertex_count(), stencil);
     if (springs_->terms.empty() || same_edges(stencil, springs_->terms.front()->stencil()))
       springs_->terms.push_back(term);
@@ -94,17 +97,15 @@ bool System::only_springs_and_loads() const {
          std::all_of(forces_.begin(), forces_.end(), fits);
 }
 
-Points3 System::loads() const {
-  const Points3 nowhere = Points3::Zero(vertex_count(), 3);
-  Points3 sum = nowhere;
+void System::loads(const Points3& x, Points3& sum) const {
+  sum.setZero(vertex_count(), 3);
   for (const auto& [name, energy] : energies_) {
-    if (energy->is_load()) energy->add_gradient(nowhere, sum);
+    if (energy->is_load()) energy->add_gradient(x, sum);
   }
   sum = -sum;
   for (const auto& [name, force] : forces_) {
-    if (force->is_load()) force->add_force(nowhere, nowhere, sum);
+    if (force->is_load()) force->add_force(x, x, sum);
   }
-  return sum;
 }
 
 double System::total_force(const Points3& x, const Points3& v, Points3& force) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,8 +62,8 @@ class System {
   /// Whether springs() and constant loads are all there is.
   bool only_springs_and_loads() const;
 
-  /// The sum of the constant loads, #V x 3.
-  Points3 loads() const;
+  /// sum = the constant loads, #V x 3; `x` any positions.
+  void loads(const Points3& x, Points3& sum) const;
 
   /// force = the sum of all forces, #V x 3 (pinned vertices included: there it is minus the reaction).
   /// Returns the largest norm over the free vertices of any single term's force, the laws along edges taken
@@ -90,7 +91,8 @@ class System {
   struct Springs {
     std::optional<SpringNetwork> network;
     std::vector<const Term*> terms;
-    int revision = -1;
+    EdgeLaw law;  // their sum; kept, since a step should not ask for memory
+    std::array<int, 2> revisions{-1, -1};
   };
   void find_edge_laws() const;
   bool in_springs(const Term& term) const;

@@ -1,6 +1,8 @@
 // What acts on the vertices: energies, and forces that have none.
 #pragma once
 
+#include <array>
+
 #include "wilt/core/types.hpp"
 #include "wilt/mechanics/block_matrix.hpp"
 #include "wilt/mechanics/spring_network.hpp"
@@ -26,14 +28,15 @@ class Term {
   /// Looks up where the elements' blocks are; needed before a matrix of this pattern is filled.
   void bind(const BlockPattern& pattern) { slots_ = pattern.upper_slots(stencil_); }
 
-  /// Where the force is a law along edges (the rows of the stencil): adds its coefficients and returns true.
-  virtual bool add_edge_law(EdgeLaw&) const { return false; }
+  /// Where the force is a law along edges (the rows of the stencil): adds a part of its coefficients and
+  /// returns true.
+  virtual bool add_edge_law(EdgeLaw&, EdgeLaw::Part) const { return false; }
 
   /// Whether the force depends neither on positions nor on velocities.
   virtual bool is_load() const { return false; }
 
-  /// Grows whenever a coefficient of its edge law changes.
-  int revision() const { return revision_; }
+  /// Grows whenever that part of its edge law changes.
+  int revision(EdgeLaw::Part part) const { return revisions_[static_cast<int>(part)]; }
 
  protected:
   explicit Term(Stencil stencil = {}) : stencil_(std::move(stencil)) {}
@@ -41,11 +44,11 @@ class Term {
   int element_count() const { return static_cast<int>(stencil_.rows()); }
   const int* vertices(int element) const { return stencil_.row(element).data(); }
   const int* slots(int element) const { return slots_.row(element).data(); }
-  void changed() { ++revision_; }
+  void changed(EdgeLaw::Part part) { ++revisions_[static_cast<int>(part)]; }
 
  private:
   Stencil stencil_, slots_;
-  int revision_ = 0;
+  std::array<int, 2> revisions_{};
 };
 
 /// A conservative force: minus the gradient of energy(x), x #V x 3 in working lengths.
