@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "wilt/core/error.hpp"
+#include "wilt/core/parallel.hpp"
+#include "wilt/mechanics/argument_checks.hpp"
 #include "wilt/mechanics/chebyshev_midpoint.hpp"
 #include "wilt/mechanics/newton_solve.hpp"
 
@@ -22,16 +24,6 @@ int first_not_finite(const MotionState& state) {
 }
 
 }  // namespace
-
-void detail::begin_step(MotionState& state, const System& system, double dt) {
-  const int n = system.vertex_count();
-  if (!(dt > 0.0) || !std::isfinite(dt))
-    throw Error(ErrorCode::configuration, fmt::format("the time step is {}; it must be above 0", dt));
-  if (state.positions.rows() != n)
-    throw Error(ErrorCode::configuration,
-                fmt::format("{} positions for {} masses; give one per vertex", state.positions.rows(), n));
-  state.complete(n);
-}
 
 void MidpointOptions::validate() const {
   if (!(tolerance > 0.0) || !(tolerance < 1.0))
@@ -55,7 +47,13 @@ ImplicitMidpoint::~ImplicitMidpoint() = default;
 ImplicitMidpoint::ImplicitMidpoint(ImplicitMidpoint&&) noexcept = default;
 
 StepReport ImplicitMidpoint::step(MotionState& state, double dt) {
-  detail::begin_step(state, *system_, dt);
+  const int n = system_->vertex_count();
+  if (!(dt > 0.0) || !std::isfinite(dt))
+    throw Error(ErrorCode::configuration, fmt::format("the time step is {}; it must be above 0", dt));
+  if (state.positions.rows() != n)
+    throw Error(ErrorCode::configuration,
+                fmt::format("{} positions for {} masses; give one per vertex", state.positions.rows(), n));
+  state.complete(n);
   StepReport report;
   report.dt = dt;
   report.converged = solve(state, dt, report);
@@ -105,14 +103,25 @@ bool ImplicitMidpoint::solve(MotionState& state, double dt, StepReport& report) 
 bool ImplicitMidpoint::solve_without_matrix(MotionState& state, double dt, StepReport& report) {
   if (!system_->only_springs_and_loads()) return false;
   if (without_matrix_ == nullptr || without_matrix_->network() != system_->springs())
-    without_matrix_ = std::make_unique<detail::ChebyshevMidpoint<SpringNetwork>>(*system_->springs());
+    without_matrix_ = std::make_unique<detail::ChebyshevMidpoint>(*system_->springs());
   system_->loads(state.positions, load_);
   const detail::ChebyshevReport solved =
-      without_matrix_->solve({{{system_, &load_, &state}}}, dt, options_.tolerance)[0];
+      without_matrix_->solve(*system_, load_, state, dt, options_.tolerance);
   report.linear += solved.passes;
   if (solved.converged && solved.scale > 0.0)
     report.residual = std::max(report.residual, solved.residual / solved.scale);
   return solved.converged;
+}
+
+std::vector<StepReport> step_together(std::span<ImplicitMidpoint> steppers, std::span<MotionState> states,
+                                      double dt) {
+  detail::require_count("states", static_cast<Eigen::Index>(states.size()),
+                        static_cast<Eigen::Index>(steppers.size()));
+  std::vector<StepReport> reports(states.size());
+  parallel_for(static_cast<int>(states.size()), 1, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) reports[k] = steppers[k].step(states[k], dt);
+  });
+  return reports;
 }
 
 }  // namespace wilt

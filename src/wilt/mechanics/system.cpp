@@ -91,11 +91,6 @@ void System::find_edge_laws() const {
   }
 }
 
-const Stencil& System::spring_edges() const {
-  static const Stencil kNone;
-  return edge_law() == nullptr ? kNone : springs_->terms.front()->stencil();
-}
-
 bool System::in_springs(const Term& term) const {
   return springs_ &&
          std::find(springs_->terms.begin(), springs_->terms.end(), &term) != springs_->terms.end();

@@ -61,12 +61,8 @@ class System {
   /// The pattern that all terms together need; binds every term to it.
   std::shared_ptr<const BlockPattern> make_pattern();
 
-  /// The sum of all terms that are laws along one and the same set of edges, as they are now; none when there
-  /// are no such terms. Good until a term is added.
-  const EdgeLaw* edge_law() const;
-  const Stencil& spring_edges() const;  ///< these edges, #E x 2; none: empty
-
-  /// That law ready to be evaluated. Good until a term is added.
+  /// The sum of all terms that are laws along one and the same set of edges, as they are now, ready to be
+  /// evaluated; none when there are no such terms. Good until a term is added.
   const SpringNetwork* springs() const;
 
   /// Whether springs() and constant loads are all there is.
@@ -104,6 +100,7 @@ class System {
     EdgeLaw law;  // their sum; kept, since a step should not ask for memory
   };
   void find_edge_laws() const;
+  const EdgeLaw* edge_law() const;
   bool in_springs(const Term& term) const;
   mutable std::optional<Springs> springs_;
 };
