@@ -8,6 +8,7 @@
 #include "wilt/core/error.hpp"
 #include "wilt/core/parallel.hpp"
 #include "wilt/mechanics/edge_rows.hpp"
+#include "wilt/mechanics/midpoint_batch.hpp"
 #include "wilt/mechanics/spring_network.hpp"
 
 namespace wilt {
@@ -100,20 +101,30 @@ TEST(SpringNetwork, IsTheSumOfItsTerms) {
   damping.add_force(sheet.positions, v, expected);
   swelling.add_force(sheet.positions, v, expected);
 
-  SpringNetwork network(n, sheet.edges);
+  EdgeLaw law;
   for (const EdgeLaw::Part part : {EdgeLaw::Part::stiffness, EdgeLaw::Part::push}) {
-    EdgeLaw law;
     law.set_zero(e, part);
     for (const Term* term : {static_cast<const Term*>(&springs), static_cast<const Term*>(&tension),
                              static_cast<const Term*>(&damping), static_cast<const Term*>(&swelling)})
       EXPECT_TRUE(term->add_edge_law(law, part));
-    network.set_law(law, part);
-    law.set_zero(e - 1, part);
-    EXPECT_THROW(network.set_law(law, part), Error);
   }
+  law.revisions = {0, 0};
+  SpringNetwork network(n, sheet.edges);
+  network.set_law(law);
   Points3 force = Points3::Zero(n, 3);
   network.add_force(sheet.positions, v, force);
   EXPECT_LT((force - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff());
+}
+
+TEST(SpringNetwork, RefusesALawOfOtherEdges) {
+  const test::Sheet sheet = test::sheet(3, 1.0, 0.0, 4);
+  SpringNetwork network(16, sheet.edges);
+  for (const EdgeLaw::Part part : {EdgeLaw::Part::stiffness, EdgeLaw::Part::push}) {
+    EdgeLaw law;
+    law.set_zero(static_cast<int>(sheet.edges.rows()) - 1, part);
+    law.revisions[static_cast<int>(part)] = 0;
+    EXPECT_THROW(network.set_law(law), Error);
+  }
 }
 
 // Oracle: definition; what a setter changes is felt by the next force, and a second set of edges stays apart.
@@ -177,6 +188,73 @@ TEST(ChebyshevMidpoint, NeedsFewPassesForThePapersSprings) {
     EXPECT_LE(report.residual, 1e-8);
     EXPECT_LE(report.linear, k == 0 ? 9 : 7) << "step " << k;
   }
+}
+
+// Ten leaves of one topology that differ in stiffness and swelling; two eights, the second not full.
+std::vector<PaperSheet> ten_leaves() {
+  std::vector<PaperSheet> leaves;
+  for (int k = 0; k < 10; ++k) leaves.push_back(paper_sheet(9, 3.0 + 0.3 * k, 0.1 * k - 0.3));
+  return leaves;
+}
+
+// Oracle: differential; every leaf stepped by itself. One of them is too much for the lanes.
+TEST(MidpointBatch, StepsEveryLeafAsIfAlone) {
+  std::vector<PaperSheet> together = ten_leaves(), alone = ten_leaves();
+  together[3] = paper_sheet(9, 1000.0, 900.0);
+  alone[3] = paper_sheet(9, 1000.0, 900.0);
+  std::vector<System*> systems;
+  std::vector<MotionState> states;
+  for (const PaperSheet& leaf : together) {
+    systems.push_back(leaf.system.get());
+    states.push_back(leaf.state);
+  }
+  MidpointBatch batch(systems, {.tolerance = 1e-11});
+  for (int k = 0; k < 12; ++k) {
+    const std::vector<StepReport> reports = batch.step(states, 0.1);
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      const StepReport report =
+          ImplicitMidpoint(*alone[i].system, {.tolerance = 1e-11}).step(alone[i].state, 0.1);
+      ASSERT_EQ(reports[i].converged, report.converged) << i;
+      if (i != 3) {
+        EXPECT_EQ(reports[i].newton, 0);
+        EXPECT_NEAR(reports[i].linear, report.linear, 1);
+      } else if (k == 0) {
+        EXPECT_GT(reports[i].newton, 0);
+      }
+      const double size = (alone[i].state.positions - alone[i].shape.positions).norm() + 1e-3;
+      ASSERT_LT((states[i].positions - alone[i].state.positions).norm(), 1e-8 * size) << i << " at " << k;
+    }
+  }
+}
+
+// Oracle: differential, bytes; the same leaf in the company of others, on another number of threads.
+TEST(MidpointBatch, NoLeafDependsOnItsCompany) {
+  Points3 result[2];
+  for (const int count : {10, 3}) {
+    const ThreadLimit limit(count == 10 ? 2 : 1);
+    std::vector<PaperSheet> leaves = ten_leaves();
+    std::vector<System*> systems;
+    std::vector<MotionState> states;
+    for (int k = 0; k < count; ++k) {
+      systems.push_back(leaves[count - 1 - k].system.get());
+      states.push_back(leaves[count - 1 - k].state);
+    }
+    MidpointBatch batch(systems);
+    for (int k = 0; k < 5; ++k) batch.step(states, 0.1);
+    result[count == 10] = states[count - 2].positions;  // leaf 1
+  }
+  EXPECT_EQ(std::memcmp(result[0].data(), result[1].data(), sizeof(double) * result[0].size()), 0);
+}
+
+TEST(MidpointBatch, RefusesWhatDoesNotBelongTogether) {
+  PaperSheet a = paper_sheet(4, 4.0, 0.1), b = paper_sheet(5, 4.0, 0.1), c = paper_sheet(4, 4.0, 0.1);
+  c.system->add_force("nothing", std::make_unique<NoForce>());
+  EXPECT_THROW(MidpointBatch({a.system.get(), b.system.get()}), Error);
+  EXPECT_THROW(MidpointBatch({a.system.get(), c.system.get()}), Error);
+  MidpointBatch batch({a.system.get()});
+  std::vector<MotionState> two(2, a.state);
+  EXPECT_THROW(batch.step(two, 0.1), Error);
+  EXPECT_THROW(batch.step(std::span(two).first(1), -0.1), Error);
 }
 
 // Oracle: planted; springs under a pressure that makes the system indefinite are left to Newton's method.

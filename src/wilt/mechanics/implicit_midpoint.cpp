@@ -23,6 +23,16 @@ int first_not_finite(const MotionState& state) {
 
 }  // namespace
 
+void detail::begin_step(MotionState& state, const System& system, double dt) {
+  const int n = system.vertex_count();
+  if (!(dt > 0.0) || !std::isfinite(dt))
+    throw Error(ErrorCode::configuration, fmt::format("the time step is {}; it must be above 0", dt));
+  if (state.positions.rows() != n)
+    throw Error(ErrorCode::configuration,
+                fmt::format("{} positions for {} masses; give one per vertex", state.positions.rows(), n));
+  state.complete(n);
+}
+
 void MidpointOptions::validate() const {
   if (!(tolerance > 0.0) || !(tolerance < 1.0))
     throw Error(ErrorCode::configuration,
@@ -45,15 +55,7 @@ ImplicitMidpoint::~ImplicitMidpoint() = default;
 ImplicitMidpoint::ImplicitMidpoint(ImplicitMidpoint&&) noexcept = default;
 
 StepReport ImplicitMidpoint::step(MotionState& state, double dt) {
-  const int n = system_->vertex_count();
-  if (!(dt > 0.0) || !std::isfinite(dt))
-    throw Error(ErrorCode::configuration, fmt::format("the time step is {}; it must be above 0", dt));
-  if (state.positions.rows() != n)
-    throw Error(ErrorCode::configuration,
-                fmt::format("{} positions for {} masses; give one per vertex", state.positions.rows(), n));
-  for (Points3* history : {&state.velocities, &state.accelerations, &state.jerks}) {
-    if (history->rows() != n) history->setZero(n, 3);
-  }
+  detail::begin_step(state, *system_, dt);
   StepReport report;
   report.dt = dt;
   report.converged = solve(state, dt, report);
@@ -84,11 +86,10 @@ bool ImplicitMidpoint::halve(MotionState& state, double dt, int halvings_left, S
 
 bool ImplicitMidpoint::solve(MotionState& state, double dt, StepReport& report) {
   if (solve_without_matrix(state, dt, report)) return true;
-  if (!matrix_) matrix_.emplace(system_->make_pattern());
-  detail::NewtonSolve newton(*system_, options_, *matrix_, state, dt, report);
-  if (!newton.run()) return false;
-  report.residual = std::max(report.residual, newton.relative_residual());
-  const Points3& d = newton.displacement();
+  if (newton_ == nullptr) newton_ = std::make_unique<detail::NewtonSolve>(*system_, options_);
+  if (!newton_->run(state, dt, report)) return false;
+  report.residual = std::max(report.residual, newton_->relative_residual());
+  const Points3& d = newton_->displacement();
   for (int i = 0; i < d.rows(); ++i) {
     const Vec3 before = state.velocities.row(i).transpose();
     const Vec3 after = system_->pinned()[i] ? Vec3::Zero() : Vec3(2.0 / dt * d.row(i).transpose() - before);
@@ -104,10 +105,10 @@ bool ImplicitMidpoint::solve(MotionState& state, double dt, StepReport& report) 
 bool ImplicitMidpoint::solve_without_matrix(MotionState& state, double dt, StepReport& report) {
   if (!system_->only_springs_and_loads()) return false;
   if (without_matrix_ == nullptr || without_matrix_->network() != system_->springs())
-    without_matrix_ = std::make_unique<detail::ChebyshevMidpoint>(*system_->springs());
+    without_matrix_ = std::make_unique<detail::ChebyshevMidpoint<SpringNetwork>>(*system_->springs());
   system_->loads(state.positions, load_);
   const detail::ChebyshevReport solved =
-      without_matrix_->solve(*system_, load_, state, dt, options_.tolerance);
+      without_matrix_->solve({{{system_, &load_, &state}}}, dt, options_.tolerance)[0];
   report.linear += solved.passes;
   if (solved.converged && solved.scale > 0.0)
     report.residual = std::max(report.residual, solved.residual / solved.scale);

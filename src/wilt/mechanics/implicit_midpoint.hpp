@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "wilt/mechanics/system.hpp"
@@ -10,8 +9,13 @@
 namespace wilt {
 
 namespace detail {
+template <class Network>
 class ChebyshevMidpoint;
-}
+class NewtonSolve;
+
+/// Checks a state and a step's length and completes the state. Throws Error{configuration}.
+void begin_step(MotionState& state, const System& system, double dt);
+}  // namespace detail
 
 struct MidpointOptions {
   double tolerance = 1e-8;  ///< of the residual, relative to the step's force scale, (0, 1)
@@ -63,8 +67,8 @@ class ImplicitMidpoint {
 
   System* system_;
   MidpointOptions options_;
-  std::optional<BlockMatrix> matrix_;                          // made when first needed
-  std::unique_ptr<detail::ChebyshevMidpoint> without_matrix_;  // the same
+  std::unique_ptr<detail::ChebyshevMidpoint<SpringNetwork>> without_matrix_;  // made when first needed
+  std::unique_ptr<detail::NewtonSolve> newton_;                               // the same
   Points3 load_;
 };
 

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "wilt/core/simd.hpp"
@@ -19,9 +22,10 @@ namespace wilt {
 struct EdgeLaw {
   enum class Part { stiffness, push };
 
-  Eigen::VectorXd stretch;  ///< #E, force per length; of the part stiffness
-  Eigen::VectorXd damping;  ///< #E, force per velocity; of the part stiffness
-  Eigen::MatrixX2d push;    ///< #E x 2, force; column k acts on edges(e, k); of the part push
+  Eigen::VectorXd stretch;               ///< #E, force per length; of the part stiffness
+  Eigen::VectorXd damping;               ///< #E, force per velocity; of the part stiffness
+  Eigen::MatrixX2d push;                 ///< #E x 2, force; column k acts on edges(e, k); of the part push
+  std::array<int, 2> revisions{-1, -1};  ///< of both parts: another number, another part
 
   void set_zero(int edge_count, Part part) {
     if (part == Part::push) {
@@ -33,26 +37,71 @@ struct EdgeLaw {
   }
 };
 
+/// What the lanes of a network's vectors are: eight vertices of one leaf.
+struct VertexLanes {
+  static constexpr int kLeaves = 1;
+  using Stored = Point4;  ///< what points that are gathered are kept as
+  static constexpr int kStoredPerGroup = simd::kLanes;
+
+  template <class Number>
+  using Leaves = std::array<Number*, kLeaves>;  ///< public vectors, #V x 3
+
+  static int leaf(int) { return 0; }
+  static int index(int group, int lane) { return simd::kLanes * group + lane; }
+  WILT_INLINE static Double8 reduce(Double8 v) { return Double8{} + simd::sum(v); }
+
+  WILT_INLINE static Point8 own(const Point4* points, int group) {
+    return simd::load_points(points + simd::kLanes * group);
+  }
+  WILT_INLINE static Point8 neighbours(const Point4* points, const int* rows, int slot) {
+    return simd::gather(points, rows + simd::kLanes * slot);
+  }
+  WILT_INLINE static void store(Point4* points, int group, const Point8& p) {
+    simd::store_points(points + simd::kLanes * group, p);
+  }
+  WILT_INLINE static Point8 load(const Leaves<const double>& from, const int* vertices, int group) {
+    return simd::gather(from[0], vertices + simd::kLanes * group);
+  }
+  /// Rows from `count` on belong to no vertex.
+  WILT_INLINE static void store(const Leaves<double>& to, const int* vertices, int group, int count,
+                                const Point8& p) {
+    std::array<Point4, simd::kLanes> points;
+    simd::store_points(points.data(), p);
+    for (int l = 0; l < std::min(simd::kLanes, count - simd::kLanes * group); ++l) {
+      double* out = to[0] + 3 * static_cast<std::ptrdiff_t>(vertices[simd::kLanes * group + l]);
+      for (int k = 0; k < 3; ++k) out[k] = points[l].xyz[k];
+    }
+  }
+};
+
 /// The sum of a law's forces over the edges at every vertex: each vertex gathers its neighbours, so the work
 /// is twice that of a pass over edges, but nothing is scattered. Agrees with the sum over edges to round-off.
 class SpringNetwork {
  public:
+  using Lanes = VertexLanes;
+
   /// `edges` #E x 2, indices in [0, vertex_count). The law is zero at first.
   SpringNetwork(int vertex_count, const Edges& edges);
 
-  /// Takes over a part of a law. Throws Error{configuration} for a wrong count.
-  void set_law(const EdgeLaw& law, EdgeLaw::Part part);
+  /// Takes over the parts of a law that it does not have yet. Throws Error{configuration} for a wrong count.
+  void set_law(const EdgeLaw& law);
 
   /// force += F, #V x 3 each.
   void add_force(const Points3& x, const Points3& v, Points3& force) const;
 
-  // For a solver that keeps its vectors in the rows' order.
-  const detail::EdgeRows& rows() const { return rows_; }
+  // For a solver that keeps its vectors in the rows' order: group g has the slots from slot_begin()[g].
+  int group_count() const { return rows_.group_count(); }
+  int vertex_count() const { return rows_.vertex_count(); }
+  const int* slot_begin() const { return rows_.group_begin.data(); }
+  const int* neighbours() const { return rows_.neighbours.data(); }
+  const int* vertices() const { return rows_.vertices.data(); }
   const Number8* stretch() const { return stretch_.data(); }  ///< per slot
   const Number8* push() const { return push_.data(); }        ///< per slot
   const Number8* damping() const { return damping_.data(); }  ///< per slot
   bool damped() const { return damped_; }
-  int stiffness_revision() const { return stiffness_revision_; }  ///< grows when that part changes
+  int stiffness_revision() const { return revisions_[0]; }  ///< another one when that part changes
+
+  const detail::EdgeRows& rows() const { return rows_; }
 
  private:
   void spread(const double* of_edge, int stride, std::vector<Number8>& slots) const;
@@ -61,7 +110,7 @@ class SpringNetwork {
   detail::EdgeRows rows_;
   std::vector<Number8> stretch_, push_, damping_;
   bool damped_ = false;
-  int stiffness_revision_ = 0;
+  std::array<int, 2> revisions_{-1, -1};
 };
 
 }  // namespace wilt
