@@ -268,6 +268,30 @@ TEST(ImplicitMidpoint, GivesTheSameBytesOnOneAndTwoThreads) {
   EXPECT_EQ(std::memcmp(result[0].data(), result[1].data(), sizeof(double) * result[0].size()), 0);
 }
 
+// Oracle: differential, bytes; every leaf stepped by itself.
+TEST(StepTogether, IsEveryStepByItself) {
+  std::vector<Blade> together, alone;
+  std::vector<ImplicitMidpoint> steppers;
+  std::vector<MotionState> states;
+  for (int k = 0; k < 5; ++k) {
+    together.push_back(test::blade(6, 0.1 * k));
+    alone.push_back(test::blade(6, 0.1 * k));
+    steppers.emplace_back(*together.back().system);
+    states.push_back(together.back().state);
+  }
+  for (int step = 0; step < 3; ++step) {
+    const std::vector<StepReport> reports = step_together(steppers, states, 0.1);
+    for (int k = 0; k < 5; ++k) {
+      ImplicitMidpoint(*alone[k].system).step(alone[k].state, 0.1);
+      EXPECT_TRUE(reports[k].converged);
+      EXPECT_EQ(
+          std::memcmp(states[k].positions.data(), alone[k].state.positions.data(), sizeof(double) * 147), 0);
+    }
+  }
+  EXPECT_GT((states[0].positions - states[4].positions).norm(), 0.0);
+  EXPECT_THROW(step_together(steppers, std::span(states).first(3), 0.1), Error);
+}
+
 // Oracle: differential; a run from the kept state is the uninterrupted run.
 TEST(ImplicitMidpoint, RestartsFromItsState) {
   Blade a = test::blade(6), b = test::blade(6);

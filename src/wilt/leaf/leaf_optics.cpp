@@ -245,15 +245,19 @@ Vec3 QuickReflectance::operator()(const LeafTissue& tissue) const {
   const double t = row - i;
   const double* few = &table_[static_cast<std::size_t>(i * kAbsorptions)];
   const double* more = few + kAbsorptions;
+  const Tables& table = tables();
+  Spectrum column;
+  for (int b = 0; b < kSpectralBands; ++b)
+    column[b] = std::min(std::sqrt(absorption_of(tissue, table.absorption[b]) / tissue.structure) *
+                             ((kAbsorptions - 1) / kMostRoot),
+                         kAbsorptions - 1.0);
   Vec3 colour = Vec3::Zero();
   for (int b = 0; b < kSpectralBands; ++b) {
-    const double k = absorption_of(tissue, tables().absorption[b]) / tissue.structure;
-    const double column = std::min(std::sqrt(k) * ((kAbsorptions - 1) / kMostRoot), kAbsorptions - 1.0);
-    const int j = std::min(static_cast<int>(column), kAbsorptions - 2);
-    const double s = column - j;
+    const int j = std::min(static_cast<int>(column[b]), kAbsorptions - 2);
+    const double s = column[b] - j;
     colour +=
         ((1.0 - t) * ((1.0 - s) * few[j] + s * few[j + 1]) + t * ((1.0 - s) * more[j] + s * more[j + 1])) *
-        tables().channel[b];
+        table.channel[b];
   }
   return colour.cwiseMax(0.0).cwiseMin(1.0);
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "wilt/core/error.hpp"
+#include "wilt/core/parallel.hpp"
+#include "wilt/mechanics/argument_checks.hpp"
 #include "wilt/mechanics/chebyshev_midpoint.hpp"
 #include "wilt/mechanics/newton_solve.hpp"
 
@@ -51,9 +53,7 @@ StepReport ImplicitMidpoint::step(MotionState& state, double dt) {
   if (state.positions.rows() != n)
     throw Error(ErrorCode::configuration,
                 fmt::format("{} positions for {} masses; give one per vertex", state.positions.rows(), n));
-  for (Points3* history : {&state.velocities, &state.accelerations, &state.jerks}) {
-    if (history->rows() != n) history->setZero(n, 3);
-  }
+  state.complete(n);
   StepReport report;
   report.dt = dt;
   report.converged = solve(state, dt, report);
@@ -84,11 +84,10 @@ bool ImplicitMidpoint::halve(MotionState& state, double dt, int halvings_left, S
 
 bool ImplicitMidpoint::solve(MotionState& state, double dt, StepReport& report) {
   if (solve_without_matrix(state, dt, report)) return true;
-  if (!matrix_) matrix_.emplace(system_->make_pattern());
-  detail::NewtonSolve newton(*system_, options_, *matrix_, state, dt, report);
-  if (!newton.run()) return false;
-  report.residual = std::max(report.residual, newton.relative_residual());
-  const Points3& d = newton.displacement();
+  if (newton_ == nullptr) newton_ = std::make_unique<detail::NewtonSolve>(*system_, options_);
+  if (!newton_->run(state, dt, report)) return false;
+  report.residual = std::max(report.residual, newton_->relative_residual());
+  const Points3& d = newton_->displacement();
   for (int i = 0; i < d.rows(); ++i) {
     const Vec3 before = state.velocities.row(i).transpose();
     const Vec3 after = system_->pinned()[i] ? Vec3::Zero() : Vec3(2.0 / dt * d.row(i).transpose() - before);
@@ -112,6 +111,17 @@ bool ImplicitMidpoint::solve_without_matrix(MotionState& state, double dt, StepR
   if (solved.converged && solved.scale > 0.0)
     report.residual = std::max(report.residual, solved.residual / solved.scale);
   return solved.converged;
+}
+
+std::vector<StepReport> step_together(std::span<ImplicitMidpoint> steppers, std::span<MotionState> states,
+                                      double dt) {
+  detail::require_count("states", static_cast<Eigen::Index>(states.size()),
+                        static_cast<Eigen::Index>(steppers.size()));
+  std::vector<StepReport> reports(states.size());
+  parallel_for(static_cast<int>(states.size()), 1, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) reports[k] = steppers[k].step(states[k], dt);
+  });
+  return reports;
 }
 
 }  // namespace wilt

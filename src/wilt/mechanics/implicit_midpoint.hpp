@@ -2,8 +2,9 @@
 #pragma once
 
 #include <memory>
-#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "wilt/mechanics/system.hpp"
 
@@ -11,7 +12,8 @@ namespace wilt {
 
 namespace detail {
 class ChebyshevMidpoint;
-}
+class NewtonSolve;
+}  // namespace detail
 
 struct MidpointOptions {
   double tolerance = 1e-8;  ///< of the residual, relative to the step's force scale, (0, 1)
@@ -63,9 +65,15 @@ class ImplicitMidpoint {
 
   System* system_;
   MidpointOptions options_;
-  std::optional<BlockMatrix> matrix_;                          // made when first needed
-  std::unique_ptr<detail::ChebyshevMidpoint> without_matrix_;  // the same
+  std::unique_ptr<detail::ChebyshevMidpoint> without_matrix_;  // made when first needed
+  std::unique_ptr<detail::NewtonSolve> newton_;                // the same
   Points3 load_;
 };
+
+/// Steps many systems, leaves of a batch: `states` one per stepper, each as stepper.step(state, dt) would,
+/// several at once. Small systems gain more so than from several threads in one step. Throws
+/// Error{configuration} for another number of states, and as step does.
+std::vector<StepReport> step_together(std::span<ImplicitMidpoint> steppers, std::span<MotionState> states,
+                                      double dt);
 
 }  // namespace wilt

@@ -52,18 +52,19 @@ SpringNetwork::SpringNetwork(int vertex_count, const Edges& edges)
       push_(rows_.slot_count()),
       damping_(rows_.slot_count()) {}
 
-void SpringNetwork::set_law(const EdgeLaw& law, EdgeLaw::Part part) {
-  if (part == EdgeLaw::Part::push) {
+void SpringNetwork::set_law(const EdgeLaw& law) {
+  if (law.revisions[1] != revisions_[1]) {
     detail::require_count("pairs of pushes", law.push.rows(), edge_count_);
     spread(law.push.data(), edge_count_, push_);
-    return;
   }
-  detail::require_count("stretches", law.stretch.size(), edge_count_);
-  detail::require_count("dampings", law.damping.size(), edge_count_);
-  spread(law.stretch.data(), 0, stretch_);
-  spread(law.damping.data(), 0, damping_);
-  damped_ = (law.damping.array() != 0.0).any();
-  ++stiffness_revision_;
+  if (law.revisions[0] != revisions_[0]) {
+    detail::require_count("stretches", law.stretch.size(), edge_count_);
+    detail::require_count("dampings", law.damping.size(), edge_count_);
+    spread(law.stretch.data(), 0, stretch_);
+    spread(law.damping.data(), 0, damping_);
+    damped_ = (law.damping.array() != 0.0).any();
+  }
+  revisions_ = law.revisions;
 }
 
 // To every slot the value of its edge's end: of_edge[edge + stride * (0 or 1)].

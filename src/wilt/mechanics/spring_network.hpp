@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "wilt/core/simd.hpp"
@@ -19,9 +20,10 @@ namespace wilt {
 struct EdgeLaw {
   enum class Part { stiffness, push };
 
-  Eigen::VectorXd stretch;  ///< #E, force per length; of the part stiffness
-  Eigen::VectorXd damping;  ///< #E, force per velocity; of the part stiffness
-  Eigen::MatrixX2d push;    ///< #E x 2, force; column k acts on edges(e, k); of the part push
+  Eigen::VectorXd stretch;               ///< #E, force per length; of the part stiffness
+  Eigen::VectorXd damping;               ///< #E, force per velocity; of the part stiffness
+  Eigen::MatrixX2d push;                 ///< #E x 2, force; column k acts on edges(e, k); of the part push
+  std::array<int, 2> revisions{-1, -1};  ///< of both parts: another number, another part
 
   void set_zero(int edge_count, Part part) {
     if (part == Part::push) {
@@ -40,8 +42,8 @@ class SpringNetwork {
   /// `edges` #E x 2, indices in [0, vertex_count). The law is zero at first.
   SpringNetwork(int vertex_count, const Edges& edges);
 
-  /// Takes over a part of a law. Throws Error{configuration} for a wrong count.
-  void set_law(const EdgeLaw& law, EdgeLaw::Part part);
+  /// Takes over the parts of a law that it does not have yet. Throws Error{configuration} for a wrong count.
+  void set_law(const EdgeLaw& law);
 
   /// force += F, #V x 3 each.
   void add_force(const Points3& x, const Points3& v, Points3& force) const;
@@ -52,7 +54,7 @@ class SpringNetwork {
   const Number8* push() const { return push_.data(); }        ///< per slot
   const Number8* damping() const { return damping_.data(); }  ///< per slot
   bool damped() const { return damped_; }
-  int stiffness_revision() const { return stiffness_revision_; }  ///< grows when that part changes
+  int stiffness_revision() const { return revisions_[0]; }  ///< another one when that part changes
 
  private:
   void spread(const double* of_edge, int stride, std::vector<Number8>& slots) const;
@@ -61,7 +63,7 @@ class SpringNetwork {
   detail::EdgeRows rows_;
   std::vector<Number8> stretch_, push_, damping_;
   bool damped_ = false;
-  int stiffness_revision_ = 0;
+  std::array<int, 2> revisions_{-1, -1};
 };
 
 }  // namespace wilt

@@ -51,19 +51,26 @@ std::shared_ptr<const BlockPattern> System::make_pattern() {
   return pattern;
 }
 
-const SpringNetwork* System::springs() const {
+const EdgeLaw* System::edge_law() const {
   if (!springs_) find_edge_laws();
   if (springs_->terms.empty()) return nullptr;
   for (const EdgeLaw::Part part : {EdgeLaw::Part::stiffness, EdgeLaw::Part::push}) {
     int revision = 0;
     for (const Term* term : springs_->terms) revision += term->revision(part);
-    int& known = springs_->revisions[static_cast<int>(part)];
+    int& known = springs_->law.revisions[static_cast<int>(part)];
     if (known == revision) continue;
     known = revision;
     springs_->law.set_zero(static_cast<int>(springs_->terms.front()->stencil().rows()), part);
     for (const Term* term : springs_->terms) term->add_edge_law(springs_->law, part);
-    springs_->network->set_law(springs_->law, part);
   }
+  return &springs_->law;
+}
+
+const SpringNetwork* System::springs() const {
+  const EdgeLaw* law = edge_law();
+  if (law == nullptr) return nullptr;
+  if (!springs_->network) springs_->network.emplace(vertex_count(), springs_->terms.front()->stencil());
+  springs_->network->set_law(*law);
   return &*springs_->network;
 }
 
@@ -79,7 +86,6 @@ void System::find_edge_laws() const {
     EdgeLaw law;
     law.set_zero(static_cast<int>(stencil.rows()), EdgeLaw::Part::push);
     if (!term->add_edge_law(law, EdgeLaw::Part::push)) continue;
-    if (springs_->terms.empty()) springs_->network.emplace(vertex_count(), stencil);
     if (springs_->terms.empty() || same_edges(stencil, springs_->terms.front()->stencil()))
       springs_->terms.push_back(term);
   }
@@ -91,7 +97,7 @@ bool System::in_springs(const Term& term) const {
 }
 
 bool System::only_springs_and_loads() const {
-  if (springs() == nullptr) return false;
+  if (edge_law() == nullptr) return false;
   const auto fits = [&](const auto& named) { return named.second->is_load() || in_springs(*named.second); };
   return std::all_of(energies_.begin(), energies_.end(), fits) &&
          std::all_of(forces_.begin(), forces_.end(), fits);
@@ -171,7 +177,6 @@ void System::assemble(const Points3& x, const Points3& v, double position_scale,
   for (const auto& [name, energy] : energies_) energy->add_hessian(x, matrix, position_scale, curvature);
   for (const auto& [name, force] : forces_)
     force->add_jacobian(x, v, matrix, position_scale, velocity_scale, curvature);
-  matrix.finish();
 }
 
 }  // namespace wilt

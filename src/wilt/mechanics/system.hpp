@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +20,13 @@ struct MotionState {
   Points3 velocities;     ///< empty: at rest
   Points3 accelerations;  ///< of the last step, where the next one starts its iteration; empty: zero
   Points3 jerks;          ///< how the last two steps' accelerations differ, per time; empty: zero
+
+  /// Gives what is empty, or of another size, `vertex_count` rows of zeros; not the positions.
+  void complete(int vertex_count) {
+    for (Points3* history : {&velocities, &accelerations, &jerks}) {
+      if (history->rows() != vertex_count) history->setZero(vertex_count, 3);
+    }
+  }
 };
 
 /// Masses, pinned vertices and named terms. Terms are owned here and changed between steps through the
@@ -55,8 +61,8 @@ class System {
   /// The pattern that all terms together need; binds every term to it.
   std::shared_ptr<const BlockPattern> make_pattern();
 
-  /// All terms that are laws along one and the same set of edges, as they are now; none when there are no
-  /// such terms. Good until a term is added.
+  /// The sum of all terms that are laws along one and the same set of edges, as they are now, ready to be
+  /// evaluated; none when there are no such terms. Good until a term is added.
   const SpringNetwork* springs() const;
 
   /// Whether springs() and constant loads are all there is.
@@ -92,9 +98,9 @@ class System {
     std::optional<SpringNetwork> network;
     std::vector<const Term*> terms;
     EdgeLaw law;  // their sum; kept, since a step should not ask for memory
-    std::array<int, 2> revisions{-1, -1};
   };
   void find_edge_laws() const;
+  const EdgeLaw* edge_law() const;
   bool in_springs(const Term& term) const;
   mutable std::optional<Springs> springs_;
 };

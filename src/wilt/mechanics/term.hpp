@@ -26,7 +26,7 @@ class Term {
   const Stencil& stencil() const { return stencil_; }
 
   /// Looks up where the elements' blocks are; needed before a matrix of this pattern is filled.
-  void bind(const BlockPattern& pattern) { slots_ = pattern.upper_slots(stencil_); }
+  void bind(const BlockPattern& pattern) { slots_ = pattern.pair_slots(stencil_); }
 
   /// Where the force is a law along edges (the rows of the stencil): adds a part of its coefficients and
   /// returns true.
@@ -59,7 +59,7 @@ class Energy : public Term {
   /// gradient += dE/dx, #V x 3.
   virtual void add_gradient(const Points3& x, Points3& gradient) const = 0;
 
-  /// matrix += scale * d2E/dx2 in the upper triangle; scale >= 0.
+  /// matrix += scale * d2E/dx2; scale >= 0.
   virtual void add_hessian(const Points3& x, BlockMatrix& matrix, double scale,
                            Curvature curvature) const = 0;
 
@@ -73,7 +73,7 @@ class Force : public Term {
   /// force += F, #V x 3.
   virtual void add_force(const Points3& x, const Points3& v, Points3& force) const = 0;
 
-  /// matrix -= position_scale * sym(dF/dx) + velocity_scale * sym(dF/dv) in the upper triangle; scales >= 0.
+  /// matrix -= position_scale * sym(dF/dx) + velocity_scale * sym(dF/dv); scales >= 0.
   virtual void add_jacobian(const Points3& x, const Points3& v, BlockMatrix& matrix, double position_scale,
                             double velocity_scale, Curvature curvature) const = 0;
 

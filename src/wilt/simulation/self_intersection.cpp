@@ -60,68 +60,71 @@ bool share_a_vertex(const Faces& faces, int f, int g) {
   return false;
 }
 
-struct Cell {
-  int x, y, z;
-};
-
 // Triangles by the cell of a grid in which the middle of their box lies. A cell is as large as the largest
-// box, so what meets a triangle lies in its cell or in those around it. Cells next to each other along x
-// stand next to each other in a table into which the whole grid is wrapped.
+// box, so what meets a triangle lies in its cell or in those around it. The rows of the grid (along x) share
+// a table of fewer rows, next to each other there when they are next in y: what stands in a row of the table
+// must be asked for its y and z.
 class CellGrid {
  public:
-  explicit CellGrid(const std::vector<Box>& boxes) : cells_(boxes.size()), faces_(boxes.size()) {
+  struct Entry {
+    int face, x, y, z;
+  };
+
+  explicit CellGrid(const std::vector<Box>& boxes) : entries_(boxes.size()) {
     Box all;
+    double size = 0.0;
     for (const Box& box : boxes) {
       all.extend(box);
-      size_ = std::max(size_, box.sizes().maxCoeff());
+      size = std::max(size, box.sizes().maxCoeff());
     }
-    size_ = size_ > 0.0 ? size_ * (1.0 + 1e-9) : 1.0;
-    std::size_t slots = 64;
-    while (slots < boxes.size()) slots *= 2;
-    mask_ = slots - 1;
-    starts_.assign(slots + 1, 0);
-    for (std::size_t f = 0; f < boxes.size(); ++f) {
-      const Eigen::Vector3i c =
-          ((boxes[f].center() - all.min()) / size_).array().floor().cast<int>().matrix();
-      cells_[f] = {c.x(), c.y(), c.z()};
-      ++starts_[slot(cells_[f]) + 1];
-    }
-    for (std::size_t i = 0; i < slots; ++i) starts_[i + 1] += starts_[i];
-    std::vector<int> filled(starts_.begin(), starts_.end() - 1);
-    for (std::size_t f = 0; f < boxes.size(); ++f)
-      faces_[static_cast<std::size_t>(filled[slot(cells_[f])]++)] = static_cast<int>(f);
+    const double per_cell = size > 0.0 ? 1.0 / (size * (1.0 + 1e-9)) : 1.0;
+    const int count = static_cast<int>(boxes.size());
+    std::vector<Entry> by_face(boxes.size());
+    parallel_for(count, 4096, [&](int begin, int end) {
+      for (int f = begin; f < end; ++f) {
+        const Vec3 place = (boxes[static_cast<std::size_t>(f)].center() - all.min()) * per_cell;
+        by_face[static_cast<std::size_t>(f)] = {f, static_cast<int>(place.x()), static_cast<int>(place.y()),
+                                                static_cast<int>(place.z())};
+      }
+    });
+    stride_ = static_cast<std::size_t>(all.sizes().x() * per_cell) + 4;
+    while ((mask_ + 1) * stride_ < boxes.size()) mask_ = 2 * mask_ + 1;
+    starts_.assign((mask_ + 1) * stride_ + 1, 0);
+    for (const Entry& entry : by_face) ++starts_[slot(entry) + 1];
+    for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+    std::vector<int> filled = starts_;
+    for (const Entry& entry : by_face) entries_[static_cast<std::size_t>(filled[slot(entry)]++)] = entry;
   }
 
-  /// Calls visit(g) for every triangle g > f in the cells in and around that of f.
+  const std::vector<Entry>& entries() const { return entries_; }
+
+  /// Calls visit(g) for triangles in the cells in and around that of entries()[i]; over all entries every
+  /// pair of triangles is met once.
   template <class Visit>
-  void visit_near(int f, Visit&& visit) const {
-    const Cell& cell = cells_[static_cast<std::size_t>(f)];
-    for (int z = cell.z - 1; z <= cell.z + 1; ++z) {
-      for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
-        for (int x = cell.x - 1; x <= cell.x + 1; ++x) {
-          const std::size_t place = slot({x, y, z});
-          for (int i = starts_[place]; i < starts_[place + 1]; ++i) {
-            const int g = faces_[static_cast<std::size_t>(i)];
-            const Cell& other = cells_[static_cast<std::size_t>(g)];
-            if (g > f && other.x == x && other.y == y && other.z == z) visit(g);
-          }
-        }
+  void visit_near(std::size_t i, Visit&& visit) const {
+    const Entry& at = entries_[i];
+    const auto visit_row = [&](int y, int z, int from_x, std::size_t after) {
+      const std::size_t row = slot({0, 0, y, z}), end = static_cast<std::size_t>(starts_[row + at.x + 2]);
+      for (std::size_t j = std::max(after, static_cast<std::size_t>(starts_[row + from_x])); j < end; ++j) {
+        if (entries_[j].y == y && entries_[j].z == z) visit(entries_[j].face);
       }
-    }
+    };
+    visit_row(at.y, at.z, at.x, i + 1);
+    visit_row(at.y + 1, at.z, at.x - 1, 0);
+    for (int y = at.y - 1; y <= at.y + 1; ++y) visit_row(y, at.z + 1, at.x - 1, 0);
   }
 
  private:
-  std::size_t slot(const Cell& cell) const {
-    return (static_cast<std::size_t>(cell.x) + static_cast<std::size_t>(cell.y) * 0x9e3779b1u +
-            static_cast<std::size_t>(cell.z) * 0x85ebca77u) &
-           mask_;
+  // One free slot before each row, for the cell at x = -1.
+  std::size_t slot(const Entry& cell) const {
+    constexpr int kApart = 977;  // rows between layers
+    return 1 + static_cast<std::size_t>(cell.x) +
+           (static_cast<std::size_t>(cell.y + kApart * cell.z) & mask_) * stride_;
   }
 
-  double size_ = 0.0;
-  std::size_t mask_ = 0;
-  std::vector<Cell> cells_;  // of each triangle
-  std::vector<int> starts_;  // of each slot, in faces_
-  std::vector<int> faces_;
+  std::size_t mask_ = 15, stride_ = 0;  // rows of the table less one, slots in each
+  std::vector<int> starts_;             // of each slot, in entries_
+  std::vector<Entry> entries_;
 };
 
 }  // namespace
@@ -138,9 +141,10 @@ int count_self_intersections(const Faces& faces, const Points3& positions) {
   std::atomic<int> count{0};  // a sum of integers does not depend on the order
   parallel_for(face_count, 1024, [&](int begin, int end) {
     int found = 0;
-    for (int f = begin; f < end; ++f) {
+    for (int i = begin; i < end; ++i) {
+      const int f = grid.entries()[static_cast<std::size_t>(i)].face;
       const Box& box = boxes[static_cast<std::size_t>(f)];
-      grid.visit_near(f, [&](int g) {
+      grid.visit_near(static_cast<std::size_t>(i), [&](int g) {
         if (!box.intersects(boxes[static_cast<std::size_t>(g)]) || share_a_vertex(faces, f, g)) return;
         if (triangles_intersect(triangle_of(faces, positions, f), triangle_of(faces, positions, g))) ++found;
       });

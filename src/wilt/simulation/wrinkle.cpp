@@ -92,8 +92,10 @@ std::vector<int> neighbourhood(const Sample& sample, const Points3& rest, int ce
       found.push_back(next);
     }
   }
-  found.erase(found.begin());
-  return found;
+  std::vector<int> around;
+  for (std::size_t i = 1; i < found.size(); ++i)
+    around.push_back(sample.vertices[static_cast<std::size_t>(found[i])]);
+  return around;
 }
 
 Vec3 normal_at(const SurfaceMesh& mesh, const Points3& positions, VertexId v) {
@@ -113,13 +115,13 @@ struct Frames8 {
   Point8 origin, u, w, n;
 };
 
-Frames8 frames_at(const SurfaceMesh& mesh, const Points3& positions, const std::array<VertexId, 8>& centres) {
+Frames8 frames_at(const SurfaceMesh& mesh, const Points3& positions, const std::array<int, 8>& centres) {
   Frames8 frames;
   const auto set = [](Point8& points, int lane, const Vec3& p) {
     points.x[lane] = p.x(), points.y[lane] = p.y(), points.z[lane] = p.z();
   };
   for (int lane = 0; lane < simd::kLanes; ++lane) {
-    const VertexId centre = centres[static_cast<std::size_t>(lane)];
+    const VertexId centre(centres[static_cast<std::size_t>(lane)]);
     const Vec3 n = normal_at(mesh, positions, centre), u = n.unitOrthogonal();
     set(frames.origin, lane, positions.row(centre).transpose());
     set(frames.u, lane, u);
@@ -131,7 +133,7 @@ Frames8 frames_at(const SurfaceMesh& mesh, const Points3& positions, const std::
 
 // c5 of eight vertices, in units of 1 / per_unit. `counts` of the vertices around; `indices` of them, eight a
 // step, the centre itself where there are no more: it adds to the count alone, which is known.
-WILT_CLONES void heights_over_quadrics(const Point4* points, const int* indices, int steps, const Frames8& f,
+WILT_CLONES void heights_over_quadrics(const double* points, const int* indices, int steps, const Frames8& f,
                                        const Number8& counts, double per_unit, Number8& heights) {
   constexpr int kTerms = 6;
   Double8 gram[kTerms][kTerms + 1] = {};  // the upper triangle, then the right-hand side
@@ -160,7 +162,7 @@ WILT_CLONES void heights_over_quadrics(const Point4* points, const int* indices,
 
 WrinkleMeter::WrinkleMeter(const SurfaceMesh& mesh, const Points3& rest, double length)
     : mesh_(mesh), length_(length) {
-  Sample sample = make_sample(mesh);
+  const Sample sample = make_sample(mesh);
   const std::vector<int> centres = thinned(deep_interior(mesh, sample), kMostCentres);
   std::vector<Stencil> stencils(centres.size());
   parallel_for(static_cast<int>(centres.size()), 256, [&](int begin, int end) {
@@ -168,14 +170,14 @@ WrinkleMeter::WrinkleMeter(const SurfaceMesh& mesh, const Points3& rest, double 
     for (int i = begin; i < end; ++i) {
       const int centre = centres[static_cast<std::size_t>(i)];
       stencils[static_cast<std::size_t>(i)] = {
-          centre, thinned(neighbourhood(sample, rest, centre, kRadius * length, mark), kMostAround)};
+          sample.vertices[static_cast<std::size_t>(centre)],
+          thinned(neighbourhood(sample, rest, centre, kRadius * length, mark), kMostAround)};
     }
   });
   stencils.erase(std::remove_if(stencils.begin(), stencils.end(),
                                 [](const Stencil& s) { return s.around.size() < kFewestAround; }),
                  stencils.end());
   centre_count_ = static_cast<int>(stencils.size());
-  sample_ = std::move(sample.vertices);
   pack(stencils);
 }
 
@@ -202,23 +204,15 @@ void WrinkleMeter::pack(const std::vector<Stencil>& stencils) {
 
 double WrinkleMeter::operator()(const Points3& positions) const {
   if (groups_.empty()) return 0.0;
-  std::vector<Point4> points;
-  for (const VertexId v : sample_) {
-    const auto p = positions.row(v);
-    points.push_back({Double4{p[0], p[1], p[2], 0.0}});
-  }
   const double squares = parallel_sum(static_cast<int>(groups_.size()), 32, [&](int begin, int end) {
     double sum = 0.0;
     for (int i = begin; i < end; ++i) {
       const Group& group = groups_[static_cast<std::size_t>(i)];
       Number8 counts, heights;
-      std::array<VertexId, 8> centres;
-      for (std::size_t lane = 0; lane < centres.size(); ++lane) {
-        counts.lanes[lane] = group.counts[lane];
-        centres[lane] = sample_[static_cast<std::size_t>(group.centres[lane])];
-      }
-      heights_over_quadrics(points.data(), &indices_[group.first], group.steps,
-                            frames_at(mesh_, positions, centres), counts, 1.0 / (kRadius * length_), heights);
+      for (std::size_t lane = 0; lane < group.counts.size(); ++lane) counts.lanes[lane] = group.counts[lane];
+      heights_over_quadrics(positions.data(), &indices_[group.first], group.steps,
+                            frames_at(mesh_, positions, group.centres), counts, 1.0 / (kRadius * length_),
+                            heights);
       for (int lane = 0; lane < std::min(simd::kLanes, centre_count_ - simd::kLanes * i); ++lane)
         sum += heights.lanes[lane] * heights.lanes[lane];
     }

@@ -26,7 +26,7 @@ class WrinkleMeter {
   double operator()(const Points3& positions) const;
 
  private:
-  struct Stencil {  // numbers into sample_
+  struct Stencil {
     int centre;
     std::vector<int> around;
   };
@@ -41,7 +41,6 @@ class WrinkleMeter {
 
   const SurfaceMesh& mesh_;
   double length_;
-  std::vector<VertexId> sample_;
   int centre_count_ = 0;
   std::vector<Group> groups_;
   std::vector<int> indices_;
