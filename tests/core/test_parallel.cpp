@@ -42,6 +42,34 @@ TEST(ParallelSum, DoesNotDependOnTheNumberOfThreads) {
   }
 }
 
+// Oracle: the serial loop; thousands of short loops one after the other, as in an iterative solver.
+TEST(Crew, MakesEveryCallOnce) {
+  for (const int threads : {1, 2, 5}) {
+    const ThreadLimit limit(threads);
+    Crew crew;
+    std::vector<int> visits(37, 0);
+    for (int loop = 0; loop < 5000; ++loop) crew.for_each(loop % 38, [&](int i) { visits[i] += loop; });
+    std::vector<int> expected(37, 0);
+    for (int loop = 0; loop < 5000; ++loop) {
+      for (int i = 0; i < loop % 38; ++i) expected[i] += loop;
+    }
+    EXPECT_EQ(visits, expected) << threads << " threads";
+  }
+}
+
+TEST(Crew, HasHelpers) {
+  const ThreadLimit limit(2);
+  Crew crew;
+  std::atomic<int> elsewhere = 0;
+  const auto here = std::this_thread::get_id();
+  for (int loop = 0; loop < 50 && elsewhere == 0; ++loop)
+    crew.for_each(8, [&](int) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      if (std::this_thread::get_id() != here) ++elsewhere;
+    });
+  EXPECT_GT(elsewhere, 0);
+}
+
 TEST(ParallelFor, HandsTheBodysExceptionToTheCaller) {
   EXPECT_THROW(parallel_for(1000, 1,
                             [](int begin, int) {

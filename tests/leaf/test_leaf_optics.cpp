@@ -141,6 +141,24 @@ TEST(LeafOptics, PartsHaveTheirKnownValues) {
   EXPECT_LT((spectrum_colour(white) - Vec3::Ones()).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+// Differential: the table against the plates, from bare to black tissue.
+TEST(QuickReflectance, IsThatOfThePlates) {
+  const QuickReflectance quick;
+  Random random(5, "tissues");
+  for (int trial = 0; trial < 2000; ++trial) {
+    LeafTissue leaf;
+    leaf.structure = random.uniform(1.0, 4.0);
+    const double much = std::pow(random.uniform(), 3.0);
+    leaf.chlorophyll = 120.0 * much * random.uniform();
+    leaf.carotenoids = 30.0 * much * random.uniform();
+    leaf.anthocyanin = 60.0 * much * random.uniform();
+    leaf.brown = 5.0 * much * random.uniform();
+    leaf.dry_matter = 0.05 * much * random.uniform();
+    EXPECT_LT((quick(leaf) - leaf_light(leaf).reflectance).cwiseAbs().maxCoeff(), 1e-3)
+        << leaf.structure << " " << leaf.chlorophyll;
+  }
+}
+
 TEST(LeafOptics, RefusesWhatIsOutOfRange) {
   LeafTissue leaf;
   leaf.chlorophyll = -1.0;

@@ -74,7 +74,6 @@ MatrixXd hessian_of(Energy& energy, const Points3& x, Curvature curvature) {
   energy.bind(*pattern);
   BlockMatrix matrix(pattern);
   energy.add_hessian(x, matrix, 1.0, curvature);
-  matrix.finish();
   return matrix.dense();
 }
 
@@ -124,8 +123,8 @@ TEST(Energies, GradientsAndHessiansAreTheDerivatives) {
   }
 }
 
-// Oracle: eigenvalues; and where the exact Hessian is a sum of semi-definite parts, they agree: springs that
-// are stretched, hinges at their rest angle.
+// Oracle: eigenvalues, to the single precision of the matrix; and where the exact Hessian is a sum of
+// semi-definite parts, they agree: springs that are stretched, hinges at their rest angle.
 TEST(Energies, SemidefiniteHessiansAreSoAndAgreeWhereTheyCan) {
   Random random(7, "semidefinite");
   const Sheet sheet = test::sheet(3, 1.0, 0.1, 7);
@@ -134,7 +133,7 @@ TEST(Energies, SemidefiniteHessiansAreSoAndAgreeWhereTheyCan) {
     for (const Points3& x : states(sheet, random)) {
       const MatrixXd hessian = hessian_of(*term.energy, x, Curvature::semidefinite);
       const VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<MatrixXd>(hessian).eigenvalues();
-      EXPECT_GE(eigenvalues.minCoeff(), -1e-12 * std::max(eigenvalues.maxCoeff(), 1.0));
+      EXPECT_GE(eigenvalues.minCoeff(), -1e-6 * std::max(eigenvalues.maxCoeff(), 1.0));
     }
   }
   const Stencil stencil = hinge_stencil(sheet.faces);
@@ -278,7 +277,6 @@ TEST(Forces, JacobiansAreTheSymmetrisedDerivatives) {
     force->bind(*pattern);
     BlockMatrix matrix(pattern);
     force->add_jacobian(x, v, matrix, 0.7, 0.3, Curvature::exact);
-    matrix.finish();
     const auto at = [&](const Points3& y, const Points3& u) {
       Points3 f = Points3::Zero(n, 3);
       force->add_force(y, u, f);
@@ -320,7 +318,7 @@ TEST(Forces, DampingTakesEnergyOut) {
   const Points3 v = test::random_points(25, 1.0, random);
   Points3 force = Points3::Zero(25, 3);
   damping.add_force(sheet.positions, v, force);
-  EXPECT_LT(dot(force, v), 0.0);
+  EXPECT_LT(force.cwiseProduct(v).sum(), 0.0);
   force.setZero();
   damping.add_force(sheet.positions, Points3::Constant(25, 3, 0.7), force);
   EXPECT_EQ(force.cwiseAbs().maxCoeff(), 0.0);

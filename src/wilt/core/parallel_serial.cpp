@@ -14,6 +14,13 @@ double parallel_sum(int count, int block, const std::function<double(int, int)>&
   return sum;
 }
 
+struct Crew::Impl {};
+Crew::Crew() = default;
+Crew::~Crew() = default;
+void Crew::for_each(int count, const std::function<void(int)>& body) {
+  for (int i = 0; i < count; ++i) body(i);
+}
+
 struct ThreadLimit::Impl {};
 ThreadLimit::ThreadLimit(int) {}
 ThreadLimit::~ThreadLimit() = default;

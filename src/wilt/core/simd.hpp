@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 /// Before a function: its body is compiled for AVX-512, for AVX2 and for any processor, and the program takes
@@ -30,6 +31,11 @@ using Double8 = double __attribute__((vector_size(64)));
 using Mask8 = long __attribute__((vector_size(64)));  ///< all bits of a lane, or none
 using Double4 = double __attribute__((vector_size(32)));
 
+/// Sixteen floats, for what ends as eight bits a channel, and as many whole numbers (bits of a random word).
+using Float16 = float __attribute__((vector_size(64)));
+using Int16 = int __attribute__((vector_size(64)));
+using Word16 = unsigned __attribute__((vector_size(64)));
+
 /// Eight numbers of an array.
 struct alignas(64) Number8 {
   Double8 lanes{};
@@ -39,6 +45,21 @@ struct alignas(64) Number8 {
 struct alignas(64) Point8 {
   Double8 x{}, y{}, z{};
 };
+WILT_INLINE Point8 operator+(const Point8& a, const Point8& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+WILT_INLINE Point8 operator-(const Point8& a, const Point8& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+WILT_INLINE Point8 operator*(const Double8& s, const Point8& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+WILT_INLINE Point8 operator*(double s, const Point8& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+WILT_INLINE Double8 dot(const Point8& a, const Point8& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 
 /// A point of an array that is gathered from, x y z 0: one load each.
 struct alignas(32) Point4 {
@@ -58,10 +79,24 @@ WILT_INLINE Double8 load(const double* from) {
 WILT_INLINE void store(double* to, Double8 v) {
   std::memcpy(to, &v, sizeof v);
 }
+WILT_INLINE Float16 load(const float* from) {
+  Float16 v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+WILT_INLINE void store(float* to, Float16 v) {
+  std::memcpy(to, &v, sizeof v);
+}
 
 WILT_INLINE Double8 sqrt(Double8 v) {
   Double8 r;
   for (int l = 0; l < kLanes; ++l) r[l] = std::sqrt(v[l]);
+  return r;
+}
+
+WILT_INLINE Float16 sqrt(Float16 v) {
+  Float16 r;
+  for (int l = 0; l < 2 * kLanes; ++l) r[l] = std::sqrt(v[l]);
   return r;
 }
 
@@ -90,6 +125,14 @@ WILT_INLINE Point8 transpose(const PointOf& point) {
 /// The points of eight indices.
 WILT_INLINE Point8 gather(const Point4* points, const int* indices) {
   return transpose([&](int k) __attribute__((always_inline)) { return points[indices[k]].xyz; });
+}
+
+/// The points of eight indices, three numbers each.
+WILT_INLINE Point8 gather(const double* points, const int* indices) {
+  return transpose([&](int k) __attribute__((always_inline)) {
+    const double* p = points + 3 * static_cast<std::ptrdiff_t>(indices[k]);
+    return Double4{p[0], p[1], p[2], 0.0};
+  });
 }
 
 /// Eight points in a row.

@@ -110,6 +110,12 @@ struct Tables {
   double t_12 = entering_share(0.5 * std::numbers::pi, kIndex);
 };
 
+double absorption_of(const LeafTissue& tissue, const Absorption& unit) {
+  return tissue.chlorophyll * unit.chlorophyll + tissue.carotenoids * unit.carotenoids +
+         tissue.anthocyanin * unit.anthocyanin + tissue.brown * unit.brown +
+         tissue.dry_matter * unit.dry_matter + tissue.water * unit.water;
+}
+
 const Tables& tables() {
   static const Tables built;
   return built;
@@ -199,11 +205,8 @@ LeafSpectrum leaf_spectrum(const LeafTissue& tissue) {
   tissue.validate();
   LeafSpectrum spectrum;
   for (int b = 0; b < kSpectralBands; ++b) {
-    const Absorption& unit = tables().absorption[b];
-    const double total = tissue.chlorophyll * unit.chlorophyll + tissue.carotenoids * unit.carotenoids +
-                         tissue.anthocyanin * unit.anthocyanin + tissue.brown * unit.brown +
-                         tissue.dry_matter * unit.dry_matter + tissue.water * unit.water;
-    const Plates leaf = plates(total / tissue.structure, tissue.structure);
+    const Plates leaf =
+        plates(absorption_of(tissue, tables().absorption[b]) / tissue.structure, tissue.structure);
     spectrum.reflectance[b] = leaf.reflectance;
     spectrum.transmittance[b] = leaf.transmittance;
   }
@@ -223,6 +226,40 @@ LeafLight leaf_light(const LeafTissue& tissue) {
   // A saturated colour can leave the gamut above 1 as well as below 0.
   light.transmittance = light.transmittance.cwiseMin(Vec3::Ones() - light.reflectance);
   return light;
+}
+
+QuickReflectance::QuickReflectance() : table_(static_cast<std::size_t>(kStructures) * kAbsorptions) {
+  for (int i = 0; i < kStructures; ++i) {
+    for (int j = 0; j < kAbsorptions; ++j) {
+      const double root = kMostRoot * j / (kAbsorptions - 1);
+      table_[static_cast<std::size_t>(i * kAbsorptions + j)] =
+          plates(root * root, 1.0 + kMostExtra * i / (kStructures - 1)).reflectance;
+    }
+  }
+}
+
+Vec3 QuickReflectance::operator()(const LeafTissue& tissue) const {
+  tissue.validate();
+  const double row = (tissue.structure - 1.0) * ((kStructures - 1) / kMostExtra);
+  const int i = std::min(static_cast<int>(row), kStructures - 2);
+  const double t = row - i;
+  const double* few = &table_[static_cast<std::size_t>(i * kAbsorptions)];
+  const double* more = few + kAbsorptions;
+  const Tables& table = tables();
+  Spectrum column;
+  for (int b = 0; b < kSpectralBands; ++b)
+    column[b] = std::min(std::sqrt(absorption_of(tissue, table.absorption[b]) / tissue.structure) *
+                             ((kAbsorptions - 1) / kMostRoot),
+                         kAbsorptions - 1.0);
+  Vec3 colour = Vec3::Zero();
+  for (int b = 0; b < kSpectralBands; ++b) {
+    const int j = std::min(static_cast<int>(column[b]), kAbsorptions - 2);
+    const double s = column[b] - j;
+    colour +=
+        ((1.0 - t) * ((1.0 - s) * few[j] + s * few[j + 1]) + t * ((1.0 - s) * more[j] + s * more[j + 1])) *
+        table.channel[b];
+  }
+  return colour.cwiseMax(0.0).cwiseMin(1.0);
 }
 
 }  // namespace wilt

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "wilt/core/types.hpp"
 
@@ -51,5 +52,19 @@ double entering_share(double alpha, double n);
 
 /// E_1(x), the exponential integral, x > 0; relative error below 1e-9.
 double exponential_integral(double x);
+
+/// leaf_light(tissue).reflectance within 0.001, for many tissues: what plates reflect is interpolated in a
+/// table over their number and the root of what each absorbs.
+class QuickReflectance {
+ public:
+  QuickReflectance();
+  Vec3 operator()(const LeafTissue& tissue) const;
+
+ private:
+  static constexpr int kStructures = 33, kAbsorptions = 257;
+  static constexpr double kMostExtra = 3.0;  // plates beyond the first
+  static constexpr double kMostRoot = 3.0;   // beyond it nothing comes back through a plate
+  std::vector<double> table_;                // kStructures x kAbsorptions
+};
 
 }  // namespace wilt

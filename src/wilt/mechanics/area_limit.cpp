@@ -106,7 +106,7 @@ void AreaLimit::add_hessian(const Points3& x, BlockMatrix& matrix, double scale,
             barrier.curvature / rest_areas_[f] * triangle.gradient(i) * triangle.gradient(j).transpose();
         if (curvature == Curvature::exact) block += barrier.slope * area_hessian(triangle, i, j);
         block *= scale * stiffness_[f];
-        matrix.add(slots(f)[pair], v[i] <= v[j] ? block : Matrix3d(block.transpose()));
+        matrix.add(slots(f)[pair], block);
       }
     }
   }

@@ -75,12 +75,23 @@ void Springs::set_rest_lengths(const Eigen::VectorXd& rest_lengths) {
   require_count("rest lengths", rest_lengths.size(), edge_count());
   require_values("the rest length of spring", rest_lengths, 0.0, true);
   rest_lengths_ = rest_lengths;
+  changed(EdgeLaw::Part::push);
 }
 
 void Springs::set_stiffness(const Eigen::VectorXd& stiffness) {
   require_count("stiffnesses", stiffness.size(), edge_count());
   require_values("the stiffness of spring", stiffness, 0.0, false);
   stiffness_ = stiffness;
+  changed(EdgeLaw::Part::stiffness);
+  changed(EdgeLaw::Part::push);
+}
+
+bool Springs::add_edge_law(EdgeLaw& law, EdgeLaw::Part part) const {
+  if (part == EdgeLaw::Part::stiffness)
+    law.stretch += stiffness_;
+  else
+    for (int side = 0; side < 2; ++side) law.push.col(side) += stiffness_.cwiseProduct(rest_lengths_);
+  return true;
 }
 
 EdgeEnergy::Radial Springs::radial(int edge, double length) const {
@@ -127,6 +138,12 @@ void LineTension::set_coefficients(const Eigen::VectorXd& coefficients) {
   require_count("coefficients", coefficients.size(), edge_count());
   require_finite("the line tension of edge", coefficients);
   coefficients_ = coefficients;
+  changed(EdgeLaw::Part::push);
+}
+
+bool LineTension::add_edge_law(EdgeLaw& law, EdgeLaw::Part part) const {
+  if (part == EdgeLaw::Part::push) law.push.colwise() += coefficients_;
+  return true;
 }
 
 EdgeEnergy::Radial LineTension::radial(int edge, double length) const {

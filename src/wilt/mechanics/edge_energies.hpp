@@ -39,6 +39,7 @@ class Springs : public EdgeEnergy {
   void set_stiffness(const Eigen::VectorXd& stiffness);
   const Eigen::VectorXd& rest_lengths() const { return rest_lengths_; }
   const Eigen::VectorXd& stiffness() const { return stiffness_; }
+  bool add_edge_law(EdgeLaw& law, EdgeLaw::Part part) const override;
 
  protected:
   Radial radial(int edge, double length) const override;
@@ -74,6 +75,7 @@ class LineTension : public EdgeEnergy {
 
   void set_coefficients(const Eigen::VectorXd& coefficients);
   const Eigen::VectorXd& coefficients() const { return coefficients_; }
+  bool add_edge_law(EdgeLaw& law, EdgeLaw::Part part) const override;
 
  protected:
   Radial radial(int edge, double length) const override;

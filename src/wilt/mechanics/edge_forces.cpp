@@ -25,6 +25,12 @@ void EdgeDamping::set_coefficients(const Eigen::VectorXd& coefficients) {
   detail::require_count("coefficients", coefficients.size(), element_count());
   detail::require_values("the damping of edge", coefficients, 0.0, false);
   coefficients_ = coefficients;
+  changed(EdgeLaw::Part::stiffness);
+}
+
+bool EdgeDamping::add_edge_law(EdgeLaw& law, EdgeLaw::Part part) const {
+  if (part == EdgeLaw::Part::stiffness) law.damping += coefficients_;
+  return true;
 }
 
 void EdgeDamping::add_force(const Points3&, const Points3& v, Points3& force) const {
@@ -50,6 +56,12 @@ void OneSidedSwelling::set_coefficients(const Eigen::MatrixX2d& coefficients) {
   detail::require_count("pairs of coefficients", coefficients.rows(), element_count());
   detail::require_finite("the swelling of edge", coefficients);
   coefficients_ = coefficients;
+  changed(EdgeLaw::Part::push);
+}
+
+bool OneSidedSwelling::add_edge_law(EdgeLaw& law, EdgeLaw::Part part) const {
+  if (part == EdgeLaw::Part::push) law.push += coefficients_;
+  return true;
 }
 
 void OneSidedSwelling::add_force(const Points3& x, const Points3&, Points3& force) const {

@@ -19,6 +19,7 @@ class EdgeDamping : public Force {
                     double velocity_scale, Curvature curvature) const override;
 
   void set_coefficients(const Eigen::VectorXd& coefficients);
+  bool add_edge_law(EdgeLaw& law, EdgeLaw::Part part) const override;
 
  private:
   Eigen::VectorXd coefficients_;
@@ -38,6 +39,7 @@ class OneSidedSwelling : public Force {
                     double velocity_scale, Curvature curvature) const override;
 
   void set_coefficients(const Eigen::MatrixX2d& coefficients);
+  bool add_edge_law(EdgeLaw& law, EdgeLaw::Part part) const override;
 
  private:
   Eigen::MatrixX2d coefficients_;

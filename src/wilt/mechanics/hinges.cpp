@@ -139,13 +139,7 @@ void Hinges::add_hessian(const Points3& x, BlockMatrix& matrix, double scale, Cu
       const auto second = detail::hinge_angle_hessian(points);
       for (int pair = 0; pair < 10; ++pair) blocks[pair] += torque * second[pair];
     }
-    for (int pair = 0; pair < 10; ++pair) {
-      const auto [a, b] = detail::kHingePairs[pair];
-      if (vertices(h)[a] <= vertices(h)[b])
-        matrix.add(slots(h)[pair], blocks[pair]);
-      else
-        matrix.add(slots(h)[pair], blocks[pair].transpose());
-    }
+    for (int pair = 0; pair < 10; ++pair) matrix.add(slots(h)[pair], blocks[pair]);
   }
 }
 

@@ -1,169 +1,26 @@
-// Symbols: x0, v0 the state at the start, d = x1 - x0, R the residual, M the masses, A = dt^2/2 dR/dd the
-// matrix.
 #include "wilt/mechanics/implicit_midpoint.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "wilt/core/error.hpp"
+#include "wilt/core/parallel.hpp"
+#include "wilt/mechanics/argument_checks.hpp"
+#include "wilt/mechanics/chebyshev_midpoint.hpp"
+#include "wilt/mechanics/newton_solve.hpp"
 
 namespace wilt {
 namespace {
 
-constexpr double kForcing = 0.02;       // a linear solve reduces its residual by this factor
-constexpr double kSlowReduction = 0.1;  // an iteration that reduces less than this calls for a new matrix
-constexpr int kMaxShortenings = 12;     // halvings of a Newton step
-constexpr double kRoundOff = 8.0 * std::numeric_limits<double>::epsilon();
-
-// R(d) and where it was taken.
-struct Residual {
-  Points3 position, velocity;  // midpoint
-  Points3 values;              // R, 0 on pinned vertices
-  double norm = 0.0;
-  double force_scale = 0.0;
-
-  void evaluate(const System& system, const MotionState& start, const Points3& d, double dt) {
-    position = start.positions + 0.5 * d;
-    velocity = d / dt;
-    force_scale = system.total_force(position, velocity, values);
-    const Eigen::VectorXd& m = system.masses();
-    for (int i = 0; i < d.rows(); ++i) {
-      if (system.pinned()[i])
-        values.row(i).setZero();
-      else
-        values.row(i) = 2.0 * m[i] / dt * (d.row(i) / dt - start.velocities.row(i)) - values.row(i);
-    }
-    norm = std::sqrt(dot(values, values));
-  }
-};
-
-double momentum_scale(const System& system, const MotionState& state, double dt) {
-  double sum = 0.0;
-  for (int i = 0; i < state.velocities.rows(); ++i)
-    sum += std::pow(2.0 * system.masses()[i] / dt, 2) * state.velocities.row(i).squaredNorm();
-  return std::sqrt(sum);
-}
-
-// What one unit in the last place of every position does to R.
-double round_off(const System& system, const BlockMatrix* matrix, const Points3& x, double dt) {
-  double sum = 0.0;
-  for (int i = 0; i < x.rows(); ++i) {
-    if (system.pinned()[i]) continue;
-    const double diagonal =
-        matrix ? matrix->block(matrix->pattern().diagonal(i)).trace() / 3.0 : system.masses()[i];
-    sum += diagonal * diagonal * x.row(i).squaredNorm();
-  }
-  return kRoundOff * 2.0 / (dt * dt) * std::sqrt(sum);
-}
-
-Points3 first_guess(const System& system, const MotionState& state, double dt) {
-  Points3 d = dt * state.velocities + 0.5 * dt * dt * state.accelerations;
-  for (int i = 0; i < d.rows(); ++i) {
-    if (system.pinned()[i]) d.row(i).setZero();
-  }
-  return d;
-}
-
-int first_not_finite(const Points3& values) {
-  for (int i = 0; i < values.rows(); ++i) {
-    if (!values.row(i).allFinite()) return i;
+int first_not_finite(const MotionState& state) {
+  for (int i = 0; i < state.positions.rows(); ++i) {
+    if (!state.positions.row(i).allFinite() || !state.velocities.row(i).allFinite() ||
+        !state.accelerations.row(i).allFinite() || !state.jerks.row(i).allFinite())
+      return i;
   }
   return -1;
-}
-
-// Newton's method for one step. The matrix is kept for as long as the residual falls fast.
-class NewtonSolve {
- public:
-  NewtonSolve(const System& system, const MidpointOptions& options, BlockMatrix& matrix,
-              const MotionState& start, double dt, StepReport& report)
-      : system_(system), options_(options), matrix_(matrix), start_(start), dt_(dt), report_(report) {}
-
-  bool run();  ///< false: the report says why
-  const Points3& displacement() const { return d_; }
-  double relative_residual() const { return scale_ > 0.0 ? current_.norm / scale_ : 0.0; }
-
- private:
-  bool fail(const std::string& reason) {
-    report_.reason = fmt::format("{} at a step of {}", reason, dt_);
-    return false;
-  }
-  void build_matrix();
-  CgResult solve_linear(Points3& delta);
-  bool descend(const Points3& delta, bool shorten);
-
-  const System& system_;
-  const MidpointOptions& options_;
-  BlockMatrix& matrix_;
-  const MotionState& start_;
-  const double dt_;
-  StepReport& report_;
-
-  Points3 d_;
-  Residual current_;
-  double scale_ = 0.0, target_ = 0.0;
-  Curvature curvature_ = Curvature::exact;
-  bool matrix_wanted_ = true;
-};
-
-bool NewtonSolve::run() {
-  d_ = first_guess(system_, start_, dt_);
-  current_.evaluate(system_, start_, d_, dt_);
-  if (!std::isfinite(current_.norm)) return fail("a force is not finite where the iteration starts");
-  scale_ = std::max(current_.force_scale, momentum_scale(system_, start_, dt_));
-  target_ = std::max(options_.tolerance * scale_, round_off(system_, nullptr, start_.positions, dt_));
-
-  Points3 delta;
-  for (int iteration = 0; current_.norm > target_; ++iteration) {
-    if (iteration == options_.max_newton)
-      return fail(fmt::format("no convergence in {} iterations (residual {:.3g} of {:.3g})", iteration,
-                              current_.norm, scale_));
-    ++report_.newton;
-    const bool fresh = matrix_wanted_;
-    if (fresh) build_matrix();
-    if (current_.norm <= target_) break;  // the matrix has told how large round-off is
-    const CgResult linear = solve_linear(delta);
-    if (linear.status != CgStatus::negative_curvature && descend(delta, fresh)) continue;
-    // First a new matrix, then a semi-definite one, then a smaller time step.
-    matrix_wanted_ = true;
-    if (!fresh) continue;
-    if (curvature_ == Curvature::semidefinite) return fail("no step along Newton's direction helps");
-    curvature_ = Curvature::semidefinite;
-  }
-  return true;
-}
-
-void NewtonSolve::build_matrix() {
-  system_.assemble(current_.position, current_.velocity, 0.25 * dt_ * dt_, 0.5 * dt_, curvature_, matrix_);
-  target_ = std::max(options_.tolerance * scale_, round_off(system_, &matrix_, start_.positions, dt_));
-  matrix_wanted_ = false;
-}
-
-CgResult NewtonSolve::solve_linear(Points3& delta) {
-  const double factor = 0.5 * dt_ * dt_;  // R is a force, A a mass
-  const double forcing = std::max(kForcing, 0.5 * target_ / current_.norm);
-  const CgResult linear = solve_cg(matrix_, -factor * current_.values, system_.pinned(),
-                                   forcing * factor * current_.norm, options_.max_linear, delta);
-  report_.linear += linear.iterations;
-  return linear;
-}
-
-// Goes along delta as far as the residual falls; without `shorten`, all the way or not at all.
-bool NewtonSolve::descend(const Points3& delta, bool shorten) {
-  Residual trial;
-  double length = 1.0;
-  for (int k = 0; k <= (shorten ? kMaxShortenings : 0); ++k, length *= 0.5) {
-    Points3 trial_d = d_ + length * delta;
-    trial.evaluate(system_, start_, trial_d, dt_);
-    if (!std::isfinite(trial.norm) || trial.norm >= (1.0 - 1e-4 * length) * current_.norm) continue;
-    matrix_wanted_ = trial.norm > kSlowReduction * current_.norm;
-    d_ = std::move(trial_d);
-    current_ = std::move(trial);
-    return true;
-  }
-  return false;
 }
 
 }  // namespace
@@ -182,9 +39,12 @@ void MidpointOptions::validate() const {
 }
 
 ImplicitMidpoint::ImplicitMidpoint(System& system, const MidpointOptions& options)
-    : system_(&system), options_(options), matrix_(system.make_pattern()) {
+    : system_(&system), options_(options) {
   options.validate();
 }
+
+ImplicitMidpoint::~ImplicitMidpoint() = default;
+ImplicitMidpoint::ImplicitMidpoint(ImplicitMidpoint&&) noexcept = default;
 
 StepReport ImplicitMidpoint::step(MotionState& state, double dt) {
   const int n = system_->vertex_count();
@@ -193,53 +53,75 @@ StepReport ImplicitMidpoint::step(MotionState& state, double dt) {
   if (state.positions.rows() != n)
     throw Error(ErrorCode::configuration,
                 fmt::format("{} positions for {} masses; give one per vertex", state.positions.rows(), n));
-  MotionState next = state;
-  if (next.velocities.rows() != n) next.velocities.setZero(n, 3);
-  if (next.accelerations.rows() != n) next.accelerations.setZero(n, 3);
-
+  state.complete(n);
   StepReport report;
   report.dt = dt;
-  const int bad = std::max({first_not_finite(next.positions), first_not_finite(next.velocities),
-                            first_not_finite(next.accelerations)});
-  if (bad >= 0) {
-    report.converged = false;
-    report.reason = fmt::format("the motion of vertex {} is not finite before the step", bad);
-    return report;
-  }
-  report.converged = advance(next, dt, options_.max_halvings, report);
+  report.converged = solve(state, dt, report);
   if (report.converged) {
-    report.reason.clear();
-    state = std::move(next);
-    report.kinetic = system_->kinetic_energy(state.velocities);
-    report.energies = system_->energies(state.positions);
+    report.substeps = 1;
+  } else if (const int bad = first_not_finite(state); bad >= 0) {
+    report.reason = fmt::format("the motion of vertex {} is not finite before the step", bad);
+  } else {
+    MotionState next = state;
+    report.converged = halve(next, dt, options_.max_halvings, report);
+    if (report.converged) state = std::move(next);
   }
+  if (report.converged) report.reason.clear();
   return report;
 }
 
-bool ImplicitMidpoint::advance(MotionState& state, double dt, int halvings_left, StepReport& report) {
-  report.dt = std::min(report.dt, dt);
-  if (solve(state, dt, report)) {
-    ++report.substeps;
-    return true;
-  }
+bool ImplicitMidpoint::halve(MotionState& state, double dt, int halvings_left, StepReport& report) {
   if (halvings_left == 0) return false;
-  return advance(state, 0.5 * dt, halvings_left - 1, report) &&
-         advance(state, 0.5 * dt, halvings_left - 1, report);
+  for (int part = 0; part < 2; ++part) {
+    report.dt = std::min(report.dt, 0.5 * dt);
+    if (solve(state, 0.5 * dt, report))
+      ++report.substeps;
+    else if (!halve(state, 0.5 * dt, halvings_left - 1, report))
+      return false;
+  }
+  return true;
 }
 
 bool ImplicitMidpoint::solve(MotionState& state, double dt, StepReport& report) {
-  NewtonSolve newton(*system_, options_, matrix_, state, dt, report);
-  if (!newton.run()) return false;
-  report.residual = std::max(report.residual, newton.relative_residual());
-  const Points3& d = newton.displacement();
+  if (solve_without_matrix(state, dt, report)) return true;
+  if (newton_ == nullptr) newton_ = std::make_unique<detail::NewtonSolve>(*system_, options_);
+  if (!newton_->run(state, dt, report)) return false;
+  report.residual = std::max(report.residual, newton_->relative_residual());
+  const Points3& d = newton_->displacement();
   for (int i = 0; i < d.rows(); ++i) {
     const Vec3 before = state.velocities.row(i).transpose();
     const Vec3 after = system_->pinned()[i] ? Vec3::Zero() : Vec3(2.0 / dt * d.row(i).transpose() - before);
+    const Vec3 acceleration = (after - before) / dt;
     state.positions.row(i) += d.row(i);
     state.velocities.row(i) = after.transpose();
-    state.accelerations.row(i) = (after - before).transpose() / dt;
+    state.jerks.row(i) = (acceleration.transpose() - state.accelerations.row(i)) / dt;
+    state.accelerations.row(i) = acceleration.transpose();
   }
   return true;
+}
+
+bool ImplicitMidpoint::solve_without_matrix(MotionState& state, double dt, StepReport& report) {
+  if (!system_->only_springs_and_loads()) return false;
+  if (without_matrix_ == nullptr || without_matrix_->network() != system_->springs())
+    without_matrix_ = std::make_unique<detail::ChebyshevMidpoint>(*system_->springs());
+  system_->loads(state.positions, load_);
+  const detail::ChebyshevReport solved =
+      without_matrix_->solve(*system_, load_, state, dt, options_.tolerance);
+  report.linear += solved.passes;
+  if (solved.converged && solved.scale > 0.0)
+    report.residual = std::max(report.residual, solved.residual / solved.scale);
+  return solved.converged;
+}
+
+std::vector<StepReport> step_together(std::span<ImplicitMidpoint> steppers, std::span<MotionState> states,
+                                      double dt) {
+  detail::require_count("states", static_cast<Eigen::Index>(states.size()),
+                        static_cast<Eigen::Index>(steppers.size()));
+  std::vector<StepReport> reports(states.size());
+  parallel_for(static_cast<int>(states.size()), 1, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) reports[k] = steppers[k].step(states[k], dt);
+  });
+  return reports;
 }
 
 }  // namespace wilt

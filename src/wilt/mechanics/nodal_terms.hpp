@@ -17,6 +17,7 @@ class Gravity : public Energy {
   double energy(const Points3& x) const override;
   void add_gradient(const Points3& x, Points3& gradient) const override;
   void add_hessian(const Points3&, BlockMatrix&, double, Curvature) const override {}
+  bool is_load() const override { return true; }
 
   void set_masses(const Eigen::VectorXd& masses);
   void set_acceleration(const Vec3& acceleration);
@@ -34,6 +35,7 @@ class NodalForce : public Force {
 
   void add_force(const Points3& x, const Points3& v, Points3& force) const override;
   void add_jacobian(const Points3&, const Points3&, BlockMatrix&, double, double, Curvature) const override {}
+  bool is_load() const override { return true; }
 
   void set_values(const Points3& values);
   const Points3& values() const { return values_; }

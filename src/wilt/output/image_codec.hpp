@@ -8,7 +8,7 @@
 
 namespace wilt {
 
-/// A JPEG, quality 1 to 100; above 90 colour is not subsampled. Throws std::logic_error for a wrong size,
+/// A JPEG, quality 1 to 100 (clipped), colour at full resolution. Throws std::logic_error for a wrong size,
 /// Error{output} when it cannot be encoded (more than 65535 pixels on a side).
 std::string encode_jpeg(const Image& image, int quality = 95);
 

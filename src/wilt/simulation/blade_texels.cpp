@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "wilt/core/parallel.hpp"
 
 namespace wilt {
 namespace {
 
-constexpr int kBand = 16;  // rows that are visited by one thread
+constexpr int kBand = 16;   // rows that are visited by one thread
+constexpr int kGroup = 16;  // texels that are painted at a time
+
+std::size_t padded(int count) {
+  return static_cast<std::size_t>((count + kGroup - 1) / kGroup * kGroup);
+}
 
 }  // namespace
 
@@ -24,42 +28,50 @@ BladeTexels::BladeTexels(const Leaf& leaf, const Venation& venation, UvRaster ra
     : leaf_(leaf),
       length_(leaf_length(leaf)),
       raster_(std::move(raster)),
-      strokes_(leaf, venation, raster_.size) {}
+      strokes_(leaf, venation, raster_.size),
+      plane_x_(leaf.positions.col(0) / length_),
+      plane_y_(leaf.positions.col(1) / length_) {}
 
-void BladeTexels::for_each(const std::function<void(const BladeTexel&)>& visit) const {
+void BladeTexels::for_each_row(const std::function<void(const BladeRow&)>& visit) const {
   parallel_for((raster_.size + kBand - 1) / kBand, 1, [&](int begin, int end) {
-    for (int band = begin; band < end; ++band)
-      visit_rows(band * kBand, std::min(raster_.size, (band + 1) * kBand) - 1, visit);
+    for (int band = begin; band < end; ++band) {
+      const int first = band * kBand, last = std::min(raster_.size, first + kBand) - 1;
+      const std::vector<float> veins = strokes_.heights(first, last);
+      for (int y = first; y <= last; ++y)
+        visit(row(y, veins.data() + static_cast<std::size_t>(y - first) * raster_.size));
+    }
   });
 }
 
-void BladeTexels::visit_rows(int first, int last, const std::function<void(const BladeTexel&)>& visit) const {
-  const std::vector<float> veins = strokes_.heights(first, last);
-  BladeTexel texel;
-  for (int y = first; y <= last; ++y) {
-    for (int x = 0; x < raster_.size; ++x) {
-      texel.index = static_cast<std::size_t>(y) * raster_.size + x;
-      texel.face = raster_.face[texel.index];
-      if (texel.face < 0) continue;
-      texel.weights = uv_weights(leaf_.skin, texel.face, texel_centre(x, y, raster_.size));
-      texel.plane = Vec2::Zero();
-      for (int c = 0; c < 3; ++c) {
-        const int v = leaf_.skin.vertex[static_cast<std::size_t>(leaf_.skin.faces(texel.face, c))];
-        texel.plane += texel.weights[c] * leaf_.positions.row(v).head<2>().transpose() / length_;
-      }
-      texel.vein = veins[static_cast<std::size_t>(y - first) * raster_.size + x];
-      texel.network = fine_network(texel.plane, leaf_.seed);
-      visit(texel);
-    }
+BladeRow BladeTexels::row(int y, const float* veins) const {
+  BladeRow row;
+  row.y = y;
+  const int* faces = raster_.face.data() + static_cast<std::size_t>(y) * raster_.size;
+  for (int x = 0; x < raster_.size;) {
+    const int first = x, face = faces[first];
+    while (x < raster_.size && faces[x] == face) ++x;
+    if (face < 0) continue;
+    const Vec3 weights = uv_weights(leaf_.skin, face, texel_centre(first, y, raster_.size));
+    const Vec3 next = uv_weights(leaf_.skin, face, texel_centre(first + 1, y, raster_.size));
+    row.runs.push_back({face, row.count(), row.count() + x - first, weights, next - weights});
+    for (int column = first; column < x; ++column) row.columns.push_back(column);
   }
+  interpolate(plane_x_, row, row.plane_x);
+  interpolate(plane_y_, row, row.plane_y);
+  row.vein.assign(padded(row.count()), 0.0F);
+  for (int i = 0; i < row.count(); ++i) row.vein[i] = veins[row.columns[i]];
+  return row;
 }
 
-double BladeTexels::interpolate(const Eigen::VectorXd& values, const BladeTexel& texel) const {
-  double value = 0.0;
-  for (int c = 0; c < 3; ++c)
-    value += texel.weights[c] *
-             values[leaf_.skin.vertex[static_cast<std::size_t>(leaf_.skin.faces(texel.face, c))]];
-  return value;
+void BladeTexels::interpolate(const Eigen::VectorXd& values, const BladeRow& row,
+                              std::vector<float>& at_texels) const {
+  at_texels.assign(padded(row.count()), 0.0F);
+  for (const BladeRow::Run& run : row.runs) {
+    const Vec3 corners(values[vertex(run.face, 0)], values[vertex(run.face, 1)], values[vertex(run.face, 2)]);
+    const double first = run.weights.dot(corners), step = run.step.dot(corners);
+    for (int i = run.begin; i < run.end; ++i)
+      at_texels[i] = static_cast<float>(first + (i - run.begin) * step);
+  }
 }
 
 Image BladeTexels::blank() const {

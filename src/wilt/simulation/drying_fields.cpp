@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "wilt/geodesics/fast_geodesics.hpp"
 #include "wilt/mesh/geometry.hpp"
+#include "wilt/simulation/margin_distance.hpp"
 #include "wilt/simulation/simulate.hpp"
 #include "wilt/simulation/smooth_noise.hpp"
 
@@ -32,19 +32,6 @@ double metres_per_length(const ModelInput& input) {
 VectorXd noise(const ModelInput& input, double wavelength, const char* purpose) {
   return smooth_noise(input.leaf.positions.leftCols<2>() / metres_per_length(input), wavelength,
                       static_cast<std::uint64_t>(input.config.seed), purpose);
-}
-
-// d_m: holes have margins too.
-VectorXd margin_distance(const ModelInput& input) {
-  const SurfaceMesh& mesh = input.leaf.mesh;
-  std::vector<SurfacePath> rims;
-  for (const std::vector<VertexId>& loop : mesh.boundary_loops()) {
-    SurfacePath rim;
-    for (const VertexId v : loop) rim.points.push_back(surface_point(mesh, v));
-    rim.points.push_back(rim.points.front());
-    rims.push_back(std::move(rim));
-  }
-  return FastGeodesics(mesh, input.leaf.positions).distances(rims) / metres_per_length(input);
 }
 
 // g g^T at every vertex, g the unit gradient of a distance: the line along which it grows. Where the lines of
@@ -111,7 +98,7 @@ DryingFields drying_fields(const ModelInput& input) {
   const auto& bending = input.config.bending;
   const auto& shrinkage = input.config.shrinkage;
   const double length = metres_per_length(input), l_w = wrinkle_length(input);
-  const VectorXd d_m = margin_distance(input), d_v = input.venation.vein_distance / length,
+  const VectorXd d_m = margin_distance(input.leaf) / length, d_v = input.venation.vein_distance / length,
                  d_t = input.venation.tip_distance.colwise().minCoeff().transpose() / length;
   const Tensors from_margin = gradient_lines(input, d_m), from_tip = gradient_lines(input, d_t),
                 from_vein = gradient_lines(input, d_v);

@@ -11,10 +11,8 @@
 namespace wilt {
 namespace {
 
-constexpr double kWrinkleRadius = 0.1;  // of L
-constexpr double kTipRadius = 0.12;     // of L
-constexpr int kMostCentres = 4000;
-constexpr int kMostNeighbours = 150;
+constexpr double kTipRadius = 0.12;  // of L
+constexpr int kBlock = 4096;         // elements that are summed up by one thread
 
 double petiole_to_farthest(const Points3& rest, VertexId petiole) {
   return std::sqrt((rest.rowwise() - rest.row(petiole)).rowwise().squaredNorm().maxCoeff());
@@ -37,51 +35,35 @@ std::vector<VertexId> neighbourhood(const SurfaceMesh& mesh, const Points3& rest
   return found;
 }
 
-// Vertices at least two rings from the boundary.
-std::vector<VertexId> deep_interior(const SurfaceMesh& mesh) {
-  std::vector<bool> near_boundary(mesh.num_vertices(), false);
-  for (const VertexId v : mesh.vertices()) {
-    if (!mesh.is_boundary(v)) continue;
-    near_boundary[v] = true;
-    mesh.for_outgoing(v, [&](HalfedgeId h) { near_boundary[mesh.to(h)] = true; });
-  }
-  std::vector<VertexId> deep;
-  for (const VertexId v : mesh.vertices()) {
-    if (!near_boundary[v]) deep.push_back(v);
-  }
-  return deep;
-}
-
-template <class T>
-std::vector<T> thinned(const std::vector<T>& all, int most) {
-  if (static_cast<int>(all.size()) <= most) return all;
-  std::vector<T> some;
-  for (int i = 0; i < most; ++i) some.push_back(all[static_cast<std::size_t>(i) * all.size() / most]);
-  return some;
-}
-
 Vec3 mean_normal(const Points3& normals, VertexId centre, const std::vector<VertexId>& around) {
   Vec3 sum = normals.row(centre).transpose();
   for (const VertexId v : around) sum += normals.row(v).transpose();
   return sum.normalized();
 }
 
-// Height of the vertex over the quadric z = c0 + c1 x + c2 y + c3 x^2 + c4 x y + c5 y^2 fitted around it, in
-// the frame whose z is the vertex normal and whose origin is the vertex: c0.
-double height_over_quadric(const Points3& positions, VertexId centre, const std::vector<VertexId>& around,
-                           const Vec3& normal, double scale) {
-  const Vec3 u = normal.unitOrthogonal(), w = normal.cross(u);
-  Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
-  for (const VertexId v : around) {
-    const Vec3 r = (positions.row(v) - positions.row(centre)).transpose() / scale;
-    const double x = r.dot(u), y = r.dot(w);
-    Eigen::Matrix<double, 6, 1> basis;
-    basis << 1.0, x, y, x * x, x * y, y * y;
-    gram += basis * basis.transpose();
-    right += r.dot(normal) * basis;
-  }
-  return scale * gram.ldlt().solve(right)[0];
+struct Areas {
+  double surface = 0.0;
+  Vec3 vector = Vec3::Zero();
+};
+
+Areas areas_of(const Faces& faces, const Points3& positions) {
+  const int count = static_cast<int>(faces.rows());
+  std::vector<Areas> blocks(static_cast<std::size_t>((count + kBlock - 1) / kBlock));
+  parallel_for(static_cast<int>(blocks.size()), 1, [&](int begin, int end) {
+    for (int block = begin; block < end; ++block) {
+      Areas& sum = blocks[static_cast<std::size_t>(block)];
+      for (int f = block * kBlock; f < std::min(count, (block + 1) * kBlock); ++f) {
+        const Vec3 ab = (positions.row(faces(f, 1)) - positions.row(faces(f, 0))).transpose(),
+                   ac = (positions.row(faces(f, 2)) - positions.row(faces(f, 0))).transpose();
+        const Vec3 vector = 0.5 * ab.cross(ac);
+        sum.surface += vector.norm();
+        sum.vector += vector;
+      }
+    }
+  });
+  Areas total;
+  for (const Areas& sum : blocks) total.surface += sum.surface, total.vector += sum.vector;
+  return total;
 }
 
 }  // namespace
@@ -113,35 +95,13 @@ LeafMetrics::LeafMetrics(const SurfaceMesh& mesh, const Points3& rest, VertexId 
       rest_area_(area_vector(mesh, rest)),
       rest_surface_(surface_area(mesh, rest)),
       rest_lengths_(edge_lengths(mesh, rest)),
-      rest_normals_(vertex_normals(mesh, rest)) {
+      rest_normals_(vertex_normals(mesh, rest)),
+      wrinkle_(mesh, rest, length_) {
   std::vector<int> mark(mesh.num_vertices(), -1);
-  for (const VertexId v : thinned(deep_interior(mesh), kMostCentres)) {
-    Stencil stencil{v,
-                    thinned(neighbourhood(mesh, rest, v, kWrinkleRadius * length_, mark), kMostNeighbours)};
-    if (stencil.around.size() >= 9) wrinkle_stencils_.push_back(std::move(stencil));
-  }
-  std::fill(mark.begin(), mark.end(), -1);
   for (const VertexId tip : tips)
     tip_stencils_.push_back({tip, neighbourhood(mesh, rest, tip, kTipRadius * length_, mark)});
   petiole_ring_ = mesh.one_ring(petiole);
   petiole_ring_.push_back(petiole);
-}
-
-double LeafMetrics::wrinkle(const Points3& positions) const {
-  if (wrinkle_stencils_.empty()) return 0.0;
-  const Points3 normals = vertex_normals(mesh_, positions);
-  const int count = static_cast<int>(wrinkle_stencils_.size());
-  const double sum = parallel_sum(count, 256, [&](int begin, int end) {
-    double squares = 0.0;
-    for (int i = begin; i < end; ++i) {
-      const Stencil& s = wrinkle_stencils_[i];
-      const double height = height_over_quadric(positions, s.centre, s.around,
-                                                normals.row(s.centre).transpose(), kWrinkleRadius * length_);
-      squares += height * height;
-    }
-    return squares;
-  });
-  return std::sqrt(sum / count) / length_;
 }
 
 double LeafMetrics::curl(const Points3& positions) const {
@@ -158,11 +118,19 @@ double LeafMetrics::curl(const Points3& positions) const {
 }
 
 double LeafMetrics::max_strain(const Points3& positions) const {
-  const EdgeData<double> lengths = edge_lengths(mesh_, positions);
-  double largest = 0.0;
-  for (const EdgeId e : mesh_.edges())
-    largest = std::max(largest, std::abs(lengths[e] / rest_lengths_[e] - 1.0));
-  return largest;
+  const int count = mesh_.num_edges();
+  std::vector<double> largest(static_cast<std::size_t>((count + kBlock - 1) / kBlock), 0.0);
+  parallel_for(static_cast<int>(largest.size()), 1, [&](int begin, int end) {
+    for (int block = begin; block < end; ++block) {
+      double& most = largest[static_cast<std::size_t>(block)];
+      for (EdgeId e(block * kBlock); e < std::min(count, (block + 1) * kBlock); e = EdgeId(e + 1)) {
+        const auto [a, b] = mesh_.edge_vertices(e);
+        const double length = (positions.row(b) - positions.row(a)).norm();
+        most = std::max(most, std::abs(length / rest_lengths_[e] - 1.0));
+      }
+    }
+  });
+  return *std::max_element(largest.begin(), largest.end());
 }
 
 FrameMetrics LeafMetrics::measure(const Points3& positions, int iteration) const {
@@ -170,8 +138,9 @@ FrameMetrics LeafMetrics::measure(const Points3& positions, int iteration) const
   m.iteration = iteration;
   m.wrinkle = wrinkle(positions);
   m.curl = curl(positions);
-  m.area_ratio = surface_area(mesh_, positions) / rest_surface_;
-  m.projected_area_ratio = area_vector(mesh_, positions).dot(rest_area_) / rest_area_.squaredNorm();
+  const Areas areas = areas_of(mesh_.face_matrix(), positions);
+  m.area_ratio = areas.surface / rest_surface_;
+  m.projected_area_ratio = areas.vector.dot(rest_area_) / rest_area_.squaredNorm();
   m.max_strain = max_strain(positions);
   m.self_intersections = count_self_intersections(mesh_.face_matrix(), positions);
   return m;

@@ -6,17 +6,15 @@
 #include "wilt/core/types.hpp"
 #include "wilt/mesh/surface_mesh.hpp"
 #include "wilt/simulation/result.hpp"
+#include "wilt/simulation/wrinkle.hpp"
 
 namespace wilt {
 
 /// The metrics of docs/method.md, section 7, against a leaf at rest.
 ///
-/// - wrinkle: RMS over vertices at least two rings inside of the distance, along the local normal, from the
-///   vertex to the least-squares quadric through the vertices within rest distance 0.1 L of it, over L. On
-///   large meshes an even sample of at most 4,000 vertices and 150 neighbours each is taken.
+/// - wrinkle: see WrinkleMeter.
 /// - curl: mean over the tips of the rotation (radians) of the mean normal of the vertices within 0.12 L of
-/// the tip, relative to the
-///   best rigid rotation of the petiole's one-ring.
+///   the tip, relative to the best rigid rotation of the petiole's one-ring.
 /// - strain: largest | l / l_rest - 1 | of any edge. Areas by sums of triangles; the
 ///   projected area is signed (what is folded over counts against).
 class LeafMetrics {
@@ -28,7 +26,7 @@ class LeafMetrics {
   /// `positions` #V x 3 in the unit of `rest`. Deterministic.
   FrameMetrics measure(const Points3& positions, int iteration) const;
 
-  double wrinkle(const Points3& positions) const;
+  double wrinkle(const Points3& positions) const { return wrinkle_(positions); }
   double curl(const Points3& positions) const;  ///< radians
   double max_strain(const Points3& positions) const;
 
@@ -45,7 +43,8 @@ class LeafMetrics {
   double rest_surface_;
   EdgeData<double> rest_lengths_;
   Points3 rest_normals_;
-  std::vector<Stencil> wrinkle_stencils_, tip_stencils_;
+  WrinkleMeter wrinkle_;
+  std::vector<Stencil> tip_stencils_;
   std::vector<VertexId> petiole_ring_;
 };
 

@@ -1,13 +1,22 @@
 #include "wilt/simulation/regions.hpp"
 
+#include <algorithm>
 #include <array>
 
+#include "wilt/core/parallel.hpp"
 #include "wilt/mesh/geometry.hpp"
 
 namespace wilt {
 namespace {
 
 constexpr std::array<Region, 4> kRegions = {Region::tip, Region::vein, Region::margin, Region::mesophyll};
+constexpr int kBlock = 4096;  // vertices that are summed up by one thread
+
+// Of each region (by its number): the sums of what a ForceRow holds, and how many vertices it has.
+struct RegionSums {
+  Eigen::Array<double, 6, 4> values = Eigen::Array<double, 6, 4>::Zero();
+  std::array<int, 4> counts{};
+};
 
 }  // namespace
 
@@ -46,27 +55,33 @@ VertexData<Region> leaf_regions(const Leaf& leaf, const Venation& venation) {
 std::vector<ForceRow> force_rows(const VertexData<Region>& regions, const DeformationModel& model,
                                  const Points3& x, const Points3& v, int iteration) {
   const ForceBreakdown forces = model.forces(x, v);
-  const Eigen::VectorXd fraction = model.water().cwiseQuotient(model.water() + model.dry_mass());
-  std::vector<ForceRow> rows;
-  for (const Region region : kRegions) {
-    ForceRow row;
-    row.iteration = iteration;
-    row.region = region;
-    int count = 0;
-    for (int i = 0; i < regions.size(); ++i) {
-      if (regions[VertexId(i)] != region) continue;
-      ++count;
-      row.elastic += forces.elastic.row(i).norm();
-      row.damping += forces.damping.row(i).norm();
-      row.swelling += forces.swelling.row(i).norm();
-      row.external += forces.external.row(i).norm();
-      row.water += fraction[i];
-      row.pressure -= model.pressure_drop()[i];
+  const Eigen::VectorXd &water = model.water(), &dry = model.dry_mass(), drop = model.pressure_drop();
+  const int blocks = (regions.size() + kBlock - 1) / kBlock;
+  std::vector<RegionSums> sums(static_cast<std::size_t>(blocks));
+  parallel_for(blocks, 1, [&](int begin, int end) {
+    for (int block = begin; block < end; ++block) {
+      RegionSums& sum = sums[static_cast<std::size_t>(block)];
+      for (int i = block * kBlock; i < std::min(regions.size(), (block + 1) * kBlock); ++i) {
+        const auto region = static_cast<std::size_t>(regions[VertexId(i)]);
+        ++sum.counts[region];
+        sum.values.col(static_cast<Eigen::Index>(region)) +=
+            (Eigen::Array<double, 6, 1>() << forces.elastic.row(i).norm(), forces.damping.row(i).norm(),
+             forces.swelling.row(i).norm(), forces.external.row(i).norm(), water[i] / (water[i] + dry[i]),
+             -drop[i])
+                .finished();
+      }
     }
-    if (count == 0) continue;
-    for (double* mean : {&row.elastic, &row.damping, &row.swelling, &row.external, &row.water, &row.pressure})
-      *mean /= count;
-    rows.push_back(row);
+  });
+  RegionSums total;
+  for (const RegionSums& sum : sums) {
+    total.values += sum.values;
+    for (std::size_t r = 0; r < kRegions.size(); ++r) total.counts[r] += sum.counts[r];
+  }
+  std::vector<ForceRow> rows;
+  for (std::size_t r = 0; r < kRegions.size(); ++r) {
+    if (total.counts[r] == 0) continue;
+    const Eigen::Array<double, 6, 1> mean = total.values.col(static_cast<Eigen::Index>(r)) / total.counts[r];
+    rows.push_back({iteration, kRegions[r], mean[0], mean[1], mean[2], mean[3], mean[4], mean[5]});
   }
   return rows;
 }

@@ -60,53 +60,70 @@ bool share_a_vertex(const Faces& faces, int f, int g) {
   return false;
 }
 
-struct Entry {
-  std::uint64_t cell;
-  int face;
-};
-
-// Cells of a grid whose size is the largest triangle's box, so that a box lies in at most eight of them.
+// Triangles by the cell of a grid in which the middle of their box lies. A cell is as large as the largest
+// box, so what meets a triangle lies in its cell or in those around it. The rows of the grid (along x) share
+// a table of fewer rows, next to each other there when they are next in y: what stands in a row of the table
+// must be asked for its y and z.
 class CellGrid {
  public:
-  explicit CellGrid(const std::vector<Box>& boxes) {
+  struct Entry {
+    int face, x, y, z;
+  };
+
+  explicit CellGrid(const std::vector<Box>& boxes) : entries_(boxes.size()) {
     Box all;
+    double size = 0.0;
     for (const Box& box : boxes) {
       all.extend(box);
-      size_ = std::max(size_, box.sizes().maxCoeff());
+      size = std::max(size, box.sizes().maxCoeff());
     }
-    origin_ = all.min();
-    if (!(size_ > 0.0)) size_ = 1.0;
-    for (int f = 0; f < static_cast<int>(boxes.size()); ++f) {
-      visit_cells(boxes[f], [&](std::uint64_t cell) { entries_.push_back({cell, f}); });
-    }
-    std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-      return a.cell != b.cell ? a.cell < b.cell : a.face < b.face;
+    const double per_cell = size > 0.0 ? 1.0 / (size * (1.0 + 1e-9)) : 1.0;
+    const int count = static_cast<int>(boxes.size());
+    std::vector<Entry> by_face(boxes.size());
+    parallel_for(count, 4096, [&](int begin, int end) {
+      for (int f = begin; f < end; ++f) {
+        const Vec3 place = (boxes[static_cast<std::size_t>(f)].center() - all.min()) * per_cell;
+        by_face[static_cast<std::size_t>(f)] = {f, static_cast<int>(place.x()), static_cast<int>(place.y()),
+                                                static_cast<int>(place.z())};
+      }
     });
+    stride_ = static_cast<std::size_t>(all.sizes().x() * per_cell) + 4;
+    while ((mask_ + 1) * stride_ < boxes.size()) mask_ = 2 * mask_ + 1;
+    starts_.assign((mask_ + 1) * stride_ + 1, 0);
+    for (const Entry& entry : by_face) ++starts_[slot(entry) + 1];
+    for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+    std::vector<int> filled = starts_;
+    for (const Entry& entry : by_face) entries_[static_cast<std::size_t>(filled[slot(entry)]++)] = entry;
   }
 
   const std::vector<Entry>& entries() const { return entries_; }
 
-  /// The one cell that reports a pair of overlapping boxes: that of the overlap's lower corner.
-  std::uint64_t home_of(const Box& a, const Box& b) const { return key(cell_of(a.min().cwiseMax(b.min()))); }
+  /// Calls visit(g) for triangles in the cells in and around that of entries()[i]; over all entries every
+  /// pair of triangles is met once.
+  template <class Visit>
+  void visit_near(std::size_t i, Visit&& visit) const {
+    const Entry& at = entries_[i];
+    const auto visit_row = [&](int y, int z, int from_x, std::size_t after) {
+      const std::size_t row = slot({0, 0, y, z}), end = static_cast<std::size_t>(starts_[row + at.x + 2]);
+      for (std::size_t j = std::max(after, static_cast<std::size_t>(starts_[row + from_x])); j < end; ++j) {
+        if (entries_[j].y == y && entries_[j].z == z) visit(entries_[j].face);
+      }
+    };
+    visit_row(at.y, at.z, at.x, i + 1);
+    visit_row(at.y + 1, at.z, at.x - 1, 0);
+    for (int y = at.y - 1; y <= at.y + 1; ++y) visit_row(y, at.z + 1, at.x - 1, 0);
+  }
 
  private:
-  template <class Visit>
-  void visit_cells(const Box& box, Visit&& visit) const {
-    const Eigen::Vector3i low = cell_of(box.min()), high = cell_of(box.max());
-    for (int x = low.x(); x <= high.x(); ++x) {
-      for (int y = low.y(); y <= high.y(); ++y) {
-        for (int z = low.z(); z <= high.z(); ++z) visit(key({x, y, z}));
-      }
-    }
-  }
-  Eigen::Vector3i cell_of(const Vec3& p) const { return ((p - origin_) / size_).array().floor().cast<int>(); }
-  static std::uint64_t key(const Eigen::Vector3i& c) {
-    return static_cast<std::uint64_t>(c.x()) << 42 | static_cast<std::uint64_t>(c.y()) << 21 |
-           static_cast<std::uint64_t>(c.z());
+  // One free slot before each row, for the cell at x = -1.
+  std::size_t slot(const Entry& cell) const {
+    constexpr int kApart = 977;  // rows between layers
+    return 1 + static_cast<std::size_t>(cell.x) +
+           (static_cast<std::size_t>(cell.y + kApart * cell.z) & mask_) * stride_;
   }
 
-  Vec3 origin_ = Vec3::Zero();
-  double size_ = 0.0;
+  std::size_t mask_ = 15, stride_ = 0;  // rows of the table less one, slots in each
+  std::vector<int> starts_;             // of each slot, in entries_
   std::vector<Entry> entries_;
 };
 
@@ -115,21 +132,22 @@ class CellGrid {
 int count_self_intersections(const Faces& faces, const Points3& positions) {
   if (!positions.allFinite()) return 0;
   const int face_count = static_cast<int>(faces.rows());
-  std::vector<Box> boxes(face_count);
-  for (int f = 0; f < face_count; ++f) boxes[f] = box_of(triangle_of(faces, positions, f));
+  std::vector<Box> boxes(static_cast<std::size_t>(face_count));
+  parallel_for(face_count, 4096, [&](int begin, int end) {
+    for (int f = begin; f < end; ++f)
+      boxes[static_cast<std::size_t>(f)] = box_of(triangle_of(faces, positions, f));
+  });
   const CellGrid grid(boxes);
-  const std::vector<Entry>& entries = grid.entries();
-
   std::atomic<int> count{0};  // a sum of integers does not depend on the order
-  parallel_for(static_cast<int>(entries.size()), 4096, [&](int begin, int end) {
+  parallel_for(face_count, 1024, [&](int begin, int end) {
     int found = 0;
     for (int i = begin; i < end; ++i) {
-      for (std::size_t j = i + 1; j < entries.size() && entries[j].cell == entries[i].cell; ++j) {
-        const int f = entries[i].face, g = entries[j].face;
-        if (!boxes[f].intersects(boxes[g]) || grid.home_of(boxes[f], boxes[g]) != entries[i].cell) continue;
-        if (share_a_vertex(faces, f, g)) continue;
+      const int f = grid.entries()[static_cast<std::size_t>(i)].face;
+      const Box& box = boxes[static_cast<std::size_t>(f)];
+      grid.visit_near(static_cast<std::size_t>(i), [&](int g) {
+        if (!box.intersects(boxes[static_cast<std::size_t>(g)]) || share_a_vertex(faces, f, g)) return;
         if (triangles_intersect(triangle_of(faces, positions, f), triangle_of(faces, positions, g))) ++found;
-      }
+      });
     }
     count += found;
   });

@@ -1,12 +1,11 @@
 #include "wilt/simulation/senescence.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "wilt/core/parallel.hpp"
 #include "wilt/core/smooth_step.hpp"
+#include "wilt/simulation/margin_distance.hpp"
 #include "wilt/simulation/smooth_noise.hpp"
 
 namespace wilt {
@@ -18,35 +17,9 @@ constexpr double kRimLead = 0.22, kRimWidth = 0.022;   // the margin
 constexpr double kPatchSize = 0.30, kSpeckle = 0.075;  // wavelengths of the noise
 constexpr double kRedPatch = 0.60;                     // and of the red patches
 constexpr double kVeinLag = 0.20;                      // how far a vein stays behind, of its age
-constexpr double kOldestTissue = 1.15;
 
 double mix(double a, double b, double t) {
   return a + t * (b - a);
-}
-
-// Distance of every vertex to the edges of the boundary, in the x-y plane.
-Eigen::VectorXd distance_to_margin(const Leaf& leaf) {
-  std::vector<std::array<Vec2, 2>> edges;
-  for (const std::vector<VertexId>& loop : leaf.mesh.boundary_loops()) {
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      edges.push_back({leaf.positions.row(loop[i]).head<2>().transpose(),
-                       leaf.positions.row(loop[(i + 1) % loop.size()]).head<2>().transpose()});
-  }
-  Eigen::VectorXd distance(leaf.positions.rows());
-  parallel_for(static_cast<int>(distance.size()), 64, [&](int begin, int end) {
-    for (int v = begin; v < end; ++v) {
-      const Vec2 p = leaf.positions.row(v).head<2>().transpose();
-      double nearest = std::numeric_limits<double>::infinity();
-      for (const auto& edge : edges) {
-        const Vec2 along = edge[1] - edge[0];
-        const double t =
-            std::clamp((p - edge[0]).dot(along) / std::max(along.squaredNorm(), 1e-30), 0.0, 1.0);
-        nearest = std::min(nearest, (p - edge[0] - t * along).squaredNorm());
-      }
-      distance[v] = std::sqrt(nearest);
-    }
-  });
-  return distance;
 }
 
 double bell(double distance, double width) {
@@ -82,7 +55,7 @@ SenescencePattern senescence_pattern(const Leaf& leaf, const Venation& venation,
                         red = smooth_noise(plane, kRedPatch, leaf.seed, "senescence red");
   const double farthest = std::max(venation.primary_distance.maxCoeff(), 1e-12 * length);
   SenescencePattern pattern;
-  pattern.margin_distance = distance_to_margin(leaf);
+  pattern.margin_distance = margin_distance(leaf);
   const Eigen::Index count = leaf.positions.rows();
   pattern.ahead.resize(count), pattern.redness.resize(count);
   for (Eigen::Index v = 0; v < count; ++v) {
@@ -103,13 +76,15 @@ double tissue_age(double dryness, double ahead) {
 
 TissueColours::TissueColours(const Pigmentation& pigments)
     : table_(static_cast<std::size_t>(kAges) * kReds * kVeins) {
-  parallel_for(kAges, 1, [&](int begin, int end) {
+  const QuickReflectance reflectance;
+  parallel_for(kAges, 8, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       for (int j = 0; j < kReds; ++j) {
         for (int k = 0; k < kVeins; ++k) {
           const TissueState state{kOldest * i / (kAges - 1), j / (kReds - 1.0), k / (kVeins - 1.0)};
-          table_[static_cast<std::size_t>((i * kReds + j) * kVeins + k)] =
-              leaf_light(senescent_tissue(pigments, state)).reflectance;
+          table_[static_cast<std::size_t>((i * kReds + j) * kVeins + k)]
+              << reflectance(senescent_tissue(pigments, state)).cast<float>(),
+              0.0F;
         }
       }
     }
@@ -120,25 +95,28 @@ Vec3 TissueColours::operator()(const TissueState& state) const {
   const auto place = [](double value, double most, int count, int& cell) {
     const double x = std::clamp(value / most, 0.0, 1.0) * (count - 1);
     cell = std::min(static_cast<int>(x), count - 2);
-    return x - cell;
+    return static_cast<float>(x - cell);
   };
   int i = 0, j = 0, k = 0;
-  const double s = place(state.age, kOldest, kAges, i), t = place(state.redness, 1.0, kReds, j),
-               u = place(state.vein, 1.0, kVeins, k);
-  Vec3 sum = Vec3::Zero();
-  for (int corner = 0; corner < 8; ++corner) {
-    const int di = corner & 1, dj = (corner >> 1) & 1, dk = corner >> 2;
-    const double weight = (di ? s : 1.0 - s) * (dj ? t : 1.0 - t) * (dk ? u : 1.0 - u);
-    sum += weight * table_[static_cast<std::size_t>(((i + di) * kReds + j + dj) * kVeins + k + dk)];
-  }
-  return sum;
+  const float s = place(state.age, kOldest, kAges, i), t = place(state.redness, 1.0, kReds, j),
+              u = place(state.vein, 1.0, kVeins, k);
+  const auto along_vein = [&](int di, int dj) -> Eigen::Array4f {
+    const Eigen::Array4f* from = &table_[static_cast<std::size_t>(((i + di) * kReds + j + dj) * kVeins + k)];
+    return from[0] + u * (from[1] - from[0]);
+  };
+  const Eigen::Array4f young = along_vein(0, 0) + t * (along_vein(0, 1) - along_vein(0, 0)),
+                       old = along_vein(1, 0) + t * (along_vein(1, 1) - along_vein(1, 0));
+  return (young + s * (old - young)).head<3>().matrix().cast<double>();
 }
 
 Points3 leaf_colours(const SenescencePattern& pattern, const TissueColours& colours,
                      const Eigen::VectorXd& dryness) {
   Points3 result(dryness.size(), 3);
-  for (Eigen::Index v = 0; v < dryness.size(); ++v)
-    result.row(v) = colours({tissue_age(dryness[v], pattern.ahead[v]), pattern.redness[v], 0.0}).transpose();
+  parallel_for(static_cast<int>(dryness.size()), 1024, [&](int begin, int end) {
+    for (int v = begin; v < end; ++v)
+      result.row(v) =
+          colours({tissue_age(dryness[v], pattern.ahead[v]), pattern.redness[v], 0.0}).transpose();
+  });
   return result;
 }
 

@@ -20,7 +20,8 @@
 
 namespace wilt {
 
-inline constexpr double kOldest = 1.5;  ///< the largest age
+inline constexpr double kOldest = 1.5;         ///< the largest age
+inline constexpr double kOldestTissue = 1.15;  ///< and the largest outside spots, which a texture shows
 
 /// The state of a piece of tissue, as far as its colour depends on it.
 struct TissueState {
@@ -36,10 +37,10 @@ LeafTissue senescent_tissue(const Pigmentation& pigments, const TissueState& sta
 struct SenescencePattern {
   Eigen::VectorXd ahead;            ///< relative, about -0.5 to 0.7
   Eigen::VectorXd redness;          ///< 0 to 1
-  Eigen::VectorXd margin_distance;  ///< metres, in the plane of the leaf
+  Eigen::VectorXd margin_distance;  ///< metres
 };
 
-/// Deterministic; varies with the leaf's seed. O(#V #margin).
+/// Deterministic; varies with the leaf's seed. O(#V log #V).
 SenescencePattern senescence_pattern(const Leaf& leaf, const Venation& venation,
                                      const Pigmentation& pigments);
 
@@ -55,7 +56,7 @@ class TissueColours {
 
  private:
   static constexpr int kAges = 91, kReds = 9, kVeins = 17;
-  std::vector<Vec3> table_;
+  std::vector<Eigen::Array4f> table_;
 };
 
 /// Reflected colour of the upper side, linear RGB, #V x 3, for a state of dryness (#V, 0 to 1): of the tissue

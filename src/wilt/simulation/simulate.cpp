@@ -72,9 +72,15 @@ class Run {
       return stop(iteration, error.what(), result);
     }
     const StepReport report = integrator_.step(state_, dt_);
-    StepRow row{iteration,       report.dt,        report.newton, report.linear,
-                report.residual, report.converged, report.kinetic};
-    for (const auto& [name, energy] : report.energies) {
+    const System& system = model_->system();
+    StepRow row{iteration,
+                report.dt,
+                report.newton,
+                report.linear,
+                report.residual,
+                report.converged,
+                system.kinetic_energy(state_.velocities)};
+    for (const auto& [name, energy] : system.energies(state_.positions)) {
       if (name == "elastic") row.elastic = energy;
       if (name == "bending") row.bending = energy;
     }

@@ -1,8 +1,10 @@
 #include "wilt/simulation/smooth_noise.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "wilt/core/parallel.hpp"
 #include "wilt/core/random.hpp"
 
 namespace wilt {
@@ -14,16 +16,27 @@ constexpr int kWaves = 32;
 
 Eigen::VectorXd smooth_noise(const Points2& points, double wavelength, std::uint64_t seed,
                              std::string_view purpose) {
+  struct Wave {
+    Vec2 vector;
+    double phase;
+  };
   Random random(seed, purpose);
-  Eigen::VectorXd field = Eigen::VectorXd::Zero(points.rows());
-  for (int wave = 0; wave < kWaves; ++wave) {
+  std::array<Wave, kWaves> waves;
+  for (Wave& wave : waves) {
     const double direction = random.uniform(0.0, 2.0 * std::numbers::pi);
-    const double phase = random.uniform(0.0, 2.0 * std::numbers::pi);
+    wave.phase = random.uniform(0.0, 2.0 * std::numbers::pi);
     const double number = 2.0 * std::numbers::pi / (wavelength * random.uniform(0.8, 1.3));
-    const Vec2 k(number * std::cos(direction), number * std::sin(direction));
-    field.array() += (points * k).array().unaryExpr([&](double angle) { return std::cos(angle + phase); });
+    wave.vector = {number * std::cos(direction), number * std::sin(direction)};
   }
-  return field * std::sqrt(2.0 / kWaves);  // a cosine of random phase has variance 1/2
+  Eigen::VectorXd field(points.rows());
+  parallel_for(static_cast<int>(points.rows()), 256, [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      double sum = 0.0;
+      for (const Wave& wave : waves) sum += std::cos(points.row(v).dot(wave.vector) + wave.phase);
+      field[v] = sum * std::sqrt(2.0 / kWaves);  // a cosine of random phase has variance 1/2
+    }
+  });
+  return field;
 }
 
 }  // namespace wilt

@@ -75,15 +75,16 @@ std::vector<float> VeinStrokes::heights(int first, int last) const {
     const int left = std::max(0, texel(std::min(stroke.a.x(), stroke.b.x()) - reach));
     const int right = std::min(size_ - 1, texel(std::max(stroke.a.x(), stroke.b.x()) + reach));
     const Vec2 along = stroke.b - stroke.a;
+    const double per_length = 1.0 / std::max(along.squaredNorm(), 1e-30);
     for (int y = top; y <= bottom; ++y) {
       for (int x = left; x <= right; ++x) {
         const Vec2 p = texel_centre(x, y, size_) - stroke.a;
-        const double t = std::clamp(p.dot(along) / std::max(along.squaredNorm(), 1e-30), 0.0, 1.0);
+        const double t = std::clamp(p.dot(along) * per_length, 0.0, 1.0);
         const double radius = stroke.radius_a + t * (stroke.radius_b - stroke.radius_a);
-        const double d = (p - t * along).norm() / radius;
-        if (d >= 1.0) continue;
+        const double square = (p - t * along).squaredNorm() / (radius * radius);
+        if (square >= 1.0) continue;
         float& height = heights[static_cast<std::size_t>(y - first) * size_ + x];
-        height = std::max(height, static_cast<float>(stroke.strength * (1.0 - d * d) * (1.0 - d * d)));
+        height = std::max(height, static_cast<float>(stroke.strength * (1.0 - square) * (1.0 - square)));
       }
     }
   }
