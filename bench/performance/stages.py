@@ -60,7 +60,7 @@ class Stages:
 
     def blender(self, name, stiffness, vertices):
         program = shutil.which("blender") or "blender"
-        return Scenario((program, "-b", "--factory-startup", "-t", "2", "-P", str(PEERS / "peer_blender.py"), "--",
+        return Scenario((program, "-b", "--factory-startup", "-t", "1", "-P", str(PEERS / "peer_blender.py"), "--",
                          str(self.bench / "write_workload"), str(vertices), str(stiffness), name), name)
 
     def other_ways(self):
