@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <thread>
+#include <vector>
 
 #include "wilt/core/parallel.hpp"
 #include "wilt/core/simd.hpp"
@@ -73,6 +74,20 @@ void arithmetic(benchmark::State& state, const Kernel& kernel) {
 }
 BENCHMARK_CAPTURE(arithmetic, products_and_sums, multiply_and_add);
 BENCHMARK_CAPTURE(arithmetic, roots_and_quotients, divide_by_roots);
+
+// All processors at once: on a quiet machine, processor time is real time times their number.
+void all_processors(benchmark::State& state) {
+  for (auto _ : state) {
+    std::vector<std::thread> threads(std::thread::hardware_concurrency());
+    for (std::thread& thread : threads) {
+      thread = std::thread([] {
+        for (int k = 0; k < 100; ++k) benchmark::DoNotOptimize(multiply_and_add());
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+  }
+}
+BENCHMARK(all_processors)->Iterations(50)->UseRealTime()->MeasureProcessCPUTime();
 
 }  // namespace
 }  // namespace wilt::bench

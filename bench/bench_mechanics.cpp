@@ -14,6 +14,7 @@ void midpoint_step(benchmark::State& state, int vertices, double stiffness) {
   const SpringProblem problem = spring_problem(vertices, stiffness);
   SpringSystem springs(problem);
   ImplicitMidpoint integrator(springs.system());
+  StepTimes times(state, problem);
   MotionState motion;
   motion.positions = problem.positions;
   int step = 0, newton = 0, linear = 0;
@@ -21,12 +22,12 @@ void midpoint_step(benchmark::State& state, int vertices, double stiffness) {
     springs.set_rest_lengths(problem.rest_lengths(step++));
     const Stopwatch watch;
     const StepReport report = integrator.step(motion, problem.dt);
-    state.SetIterationTime(watch.seconds());
+    times.add(watch.seconds());
     if (!report.converged) return state.SkipWithError(report.reason.c_str());
     newton += report.newton;
     linear += report.linear;
   }
-  report_motion(state, problem, motion.positions);
+  times.report(motion.positions);
   state.counters["newton"] = static_cast<double>(newton) / step;
   state.counters["linear"] = static_cast<double>(linear) / step;
 }

@@ -3,20 +3,44 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
 #include "bench/workload.hpp"
 
 namespace wilt::bench {
 
-/// The number of springs, and where the blade is in the end: two numbers by which scripts/performance sees
-/// that all programs solve one problem.
-inline void report_motion(benchmark::State& state, const SpringProblem& problem, const Points3& positions) {
-  state.counters["springs"] = problem.edge_count();
-  state.counters["height"] = positions.col(2).mean();
-  double sum = 0.0;
-  for (int e = 0; e < problem.edge_count(); ++e)
-    sum += (positions.row(problem.edges(e, 1)) - positions.row(problem.edges(e, 0))).norm();
-  state.counters["edge"] = sum / problem.edge_count();
-}
+/// The steps of one run of a problem. What counts is their median: a run is short, and its first steps and
+/// the machine's interruptions are not what is asked for.
+class StepTimes {
+ public:
+  StepTimes(benchmark::State& state, const SpringProblem& problem) : state_(state), problem_(problem) {}
+
+  void add(double seconds) {
+    state_.SetIterationTime(seconds);
+    times_.push_back(seconds);
+  }
+
+  /// Counters: the median and the number of springs; the mean height and edge of the blade in the end, by
+  /// which to see that all programs solve one problem.
+  void report(const Points3& positions) {
+    const auto middle = times_.begin() + static_cast<std::ptrdiff_t>(times_.size() / 2);
+    std::nth_element(times_.begin(), middle, times_.end());
+    state_.counters["median_seconds"] = *middle;
+    state_.counters["springs"] = problem_.edge_count();
+    state_.counters["height"] = positions.col(2).mean();
+    double sum = 0.0;
+    for (int e = 0; e < problem_.edge_count(); ++e)
+      sum += (positions.row(problem_.edges(e, 1)) - positions.row(problem_.edges(e, 0))).norm();
+    state_.counters["edge"] = sum / problem_.edge_count();
+  }
+
+ private:
+  benchmark::State& state_;
+  const SpringProblem& problem_;
+  std::vector<double> times_;
+};
 
 }  // namespace wilt::bench
 

@@ -49,6 +49,7 @@ void newton_step(benchmark::State& state, int vertices, double stiffness) {
   MidpointEquation equation(problem);
   Eigen::VectorXd x = problem.positions.reshaped<Eigen::RowMajor>(), v = Eigen::VectorXd::Zero(x.size());
   Solver solver(equation.matrix());
+  StepTimes times(state, problem);
   int step = 0, newton = 0;
   for (auto _ : state) {
     equation.set_rest_lengths(problem.rest_lengths(step++));
@@ -62,9 +63,9 @@ void newton_step(benchmark::State& state, int vertices, double stiffness) {
     }
     x += 0.5 * problem.dt * (v + after);
     v = after;
-    state.SetIterationTime(watch.seconds());
+    times.add(watch.seconds());
   }
-  report_motion(state, problem, x.reshaped<Eigen::RowMajor>(problem.vertex_count(), 3));
+  times.report(x.reshaped<Eigen::RowMajor>(problem.vertex_count(), 3));
   state.counters["newton"] = static_cast<double>(newton) / step;
 }
 

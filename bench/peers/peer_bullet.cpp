@@ -101,14 +101,15 @@ class BulletLeaf {
 void bullet_step(benchmark::State& state, int vertices, double stiffness) {
   const SpringProblem problem = spring_problem(vertices, stiffness);
   BulletLeaf leaf(problem);
+  StepTimes times(state, problem);
   int step = 0;
   for (auto _ : state) {
     leaf.set_rest_lengths(problem.rest_lengths(step++));
     const Stopwatch watch;
     leaf.step();
-    state.SetIterationTime(watch.seconds());
+    times.add(watch.seconds());
   }
-  report_motion(state, problem, leaf.positions());
+  times.report(leaf.positions());
 }
 WILT_STEP_SCENARIOS(bullet_step);
 

@@ -31,7 +31,7 @@ def block(name, points):
 def scaling(path, stage_times):
     """Seconds by stage over the number of vertices."""
     script = STYLE.format(width=760, height=480, path=path)
-    script += "set xlabel 'vertices'\nset ylabel 'seconds'\nset format x '10^{%L}'\nset key outside right top\n"
+    script += "set xlabel 'vertices'\nset ylabel 'seconds'\nset format x '10^{%L}'\nset xrange [700:1500000]\nset key outside right top\n"
     curves = []
     for k, (stage, points) in enumerate(stage_times.items()):
         script += block(stage, points)

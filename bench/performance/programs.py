@@ -31,7 +31,7 @@ class Scenario:
 @dataclasses.dataclass
 class Sample:
     seconds: float
-    cpu_share: float  # of the wall time that the process's main thread was running
+    processors: float  # that were busy with it, on average
     counters: dict
 
 
@@ -63,8 +63,13 @@ def run(scenario, limit=600):
     if row.get("error_occurred"):
         raise Failed(row["error_message"])
     counters = {key: value for key, value in row.items() if isinstance(value, (int, float))}
-    unit = SECONDS[row["time_unit"]]
-    return Sample(unit * row["real_time"], row.get("cpu_time", 0.0) / max(row["real_time"], 1e-300), counters)
+    seconds = counters.get("median_seconds", SECONDS[row["time_unit"]] * row["real_time"])
+    return Sample(seconds, row.get("cpu_time", 0.0) / max(row["real_time"], 1e-300), counters)
+
+
+def quietness(scenario):
+    """The share of all processors' time that a scenario gets which asks for all of it."""
+    return run(scenario).processors / len(os.sched_getaffinity(0))
 
 
 @dataclasses.dataclass

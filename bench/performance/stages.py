@@ -40,8 +40,8 @@ class Stages:
         return [
             self.step("midpoint step of the springs, 1k", "soft_1k"),
             self.step("midpoint step of the springs, 10k", "soft_10k", Ratio(15), Ratio(25)),
-            self.step("the same, 100k", "soft_100k", Ratio(18), Ratio(36), repetitions=3),
-            self.step("the same, 1M", "soft_1M", Below(30e-9), Below(14e-9), bullet=False, repetitions=3, heavy=True),
+            self.step("midpoint step of the springs, 100k", "soft_100k", Ratio(18), Ratio(36), repetitions=3),
+            self.step("midpoint step of the springs, 1M", "soft_1M", Below(30e-9), Below(14e-9), bullet=False, repetitions=3, heavy=True),
             self.step("stiff step, k = 1000, 2k", "stiff_2k", Ratio(6), Ratio(14)),
             self.step("stiff step, k = 1000, 10k", "stiff_10k", Ratio(6), Ratio(14)),
             self.default_step("2k"),
@@ -60,7 +60,7 @@ class Stages:
 
     def blender(self, name, stiffness, vertices):
         program = shutil.which("blender") or "blender"
-        return Scenario((program, "-b", "--factory-startup", "-t", "2", "-P", str(PEERS / "peer_blender.py"), "--",
+        return Scenario((program, "-b", "--factory-startup", "-t", "1", "-P", str(PEERS / "peer_blender.py"), "--",
                          str(self.bench / "write_workload"), str(vertices), str(stiffness), name), name)
 
     def other_ways(self):

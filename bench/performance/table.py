@@ -3,6 +3,8 @@ import dataclasses
 
 from . import programs
 
+QUIET = 0.9  # of the processors' time free: with less, a ratio says nothing
+
 
 @dataclasses.dataclass(frozen=True)
 class Ratio:
@@ -46,6 +48,7 @@ class Row:
     single: float = None  # on one thread
     peer_times: dict = dataclasses.field(default_factory=dict)
     memory: float = 0.0
+    quiet: float = None  # the share of the processors that was free when it was measured
     doubt: str = ""  # why the time does not count
     notes: list = dataclasses.field(default_factory=list)
 
@@ -61,6 +64,8 @@ class Row:
     def verdict(self):
         if self.ours is None:
             return "not run"
+        if self.quiet and self.quiet < QUIET:
+            return f"? only {self.quiet:.0%} of the machine was free"
         if self.doubt:
             return f"no: {self.doubt}"
         if self.target is None:
@@ -87,6 +92,10 @@ def measure(row, quick):
     fastest = dict(zip(row.peers, peers)).get(row.fastest_peer)
     if not fastest or not ours.samples:
         return
+    if row.per_spring and fastest.scenario.name.endswith(row.scenario.name.split("/")[1]):
+        edge, theirs = ours.counter("edge"), fastest.counter("edge")
+        if abs(edge - theirs) > 1e-3 * theirs:
+            row.doubt = "another motion than the peer's"
     if row.error_factor:
         error, theirs = ours.counter("mean_error"), fastest.counter("mean_error")
         row.notes.append(f"mean error {error:.2g}, the peer's {theirs:.2g}")

@@ -11,8 +11,9 @@
 namespace wilt {
 
 namespace detail {
+class MarchSurface;
 class Unfolding;
-}
+}  // namespace detail
 
 /// Distances from a front that carries the unfolded image of its source from face to face.
 ///
@@ -25,18 +26,22 @@ class FastGeodesics {
 
   Eigen::VectorXd distances(VertexId source) const;  ///< #V; infinite in other components
 
+  /// The same from each source, #V x #sources, in parallel. Throws Error{interrupted} when the monitor asks
+  /// to stop.
+  Eigen::MatrixXd distances(std::span<const VertexId> sources, const Monitor& monitor = {}) const;
+
   /// Distance from every vertex to the nearest of the polylines, #V (infinite when there is none).
   Eigen::VectorXd distances(std::span<const SurfacePath> sources) const;
 
  private:
   const SurfaceMesh& mesh_;
-  const Points3& positions_;
   std::shared_ptr<const detail::Unfolding> unfolding_;
+  std::shared_ptr<const detail::MarchSurface> surface_;
 };
 
 enum class GeodesicMethod { fast, exact };
 
-/// Distances from each of `sources` to every vertex, #sources x #V. In parallel; deterministic. Throws
+/// Distances from each of `sources` to every vertex, #V x #sources. In parallel; deterministic. Throws
 /// Error{input} as the query classes do, Error{interrupted} when the monitor asks to stop.
 Eigen::MatrixXd geodesic_distances(const SurfaceMesh& mesh, const Points3& positions,
                                    std::span<const VertexId> sources, GeodesicMethod method,

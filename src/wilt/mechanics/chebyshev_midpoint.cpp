@@ -60,7 +60,7 @@ struct BeginPass {
   const int* vertices;
   const double *x, *v, *a, *jerk, *load;  // public vectors, #V x 3
   double dt;
-  const Number8* weight;
+  Number8 *inertia, *weight;  // the first holds the masses, 0 where pinned
   Point4 *start, *u;
   Point8* constant;
 };
@@ -76,8 +76,10 @@ WILT_CLONES Squares begin_groups(const BeginPass& pass, int begin, int end) {
   Double8 momentum{}, loads{}, inertia{}, position{};
   for (int g = begin; g < end; ++g) {
     const int* vertices = pass.vertices + kLanes * g;
-    const Double8 w = pass.weight[g].lanes;
-    const Double8 free = w > 0.0 ? Double8{} + 1.0 : Double8{}, m = w > 0.0 ? quarter / w : Double8{};
+    const Double8 m = pass.inertia[g].lanes, free = m > 0.0 ? Double8{} + 1.0 : Double8{};
+    const Double8 w = m > 0.0 ? quarter / m : Double8{};
+    pass.inertia[g].lanes = m / quarter;
+    pass.weight[g].lanes = w;
     const Point8 x = simd::gather(pass.x, vertices), v = simd::gather(pass.v, vertices);
     const Point8 a = simd::gather(pass.a, vertices), load = simd::gather(pass.load, vertices);
     const Point8 predicted = x + half * free * v;
@@ -253,14 +255,13 @@ ChebyshevMidpoint::Scales ChebyshevMidpoint::begin(Crew& crew, const System& sys
     for (int row = kLanes * begin; row < kLanes * end; ++row) {
       const int v = rows.vertices[row];
       const bool free = row < rows.vertex_count() && !system.pinned()[v];
-      const double inertia = free ? 4.0 / (dt * dt) * system.masses()[v] : 0.0;
-      inertia_[row / kLanes].lanes[row % kLanes] = inertia;
-      weight_[row / kLanes].lanes[row % kLanes] = free ? 1.0 / inertia : 0.0;
+      inertia_[row / kLanes].lanes[row % kLanes] = free ? system.masses()[v] : 0.0;
     }
-    squares[block] = begin_groups(
-        {rows.vertices.data(), state.positions.data(), state.velocities.data(), state.accelerations.data(),
-         state.jerks.data(), load.data(), dt, weight_.data(), start_.data(), u_.data(), constant_.data()},
-        begin, end);
+    squares[block] =
+        begin_groups({rows.vertices.data(), state.positions.data(), state.velocities.data(),
+                      state.accelerations.data(), state.jerks.data(), load.data(), dt, inertia_.data(),
+                      weight_.data(), start_.data(), u_.data(), constant_.data()},
+                     begin, end);
   });
   Squares sum;
   for (const Squares& s : squares) {

@@ -24,16 +24,9 @@ std::uint64_t padded(std::size_t size) {
   return (static_cast<std::uint64_t>(size) + 3) / 4 * 4;
 }
 
-void append_chunk(std::string& bytes, std::uint32_t type, std::string_view content, char padding) {
-  append_u32(bytes, padded(content.size()));
-  append_u32(bytes, type);
-  bytes.append(content);
-  bytes.append(padded(content.size()) - content.size(), padding);
-}
-
 }  // namespace
 
-std::string join_glb(std::string_view json, std::string_view binary) {
+std::string join_glb(std::string_view json, std::string binary) {
   const std::uint64_t total =
       kHeaderSize + 2 * kChunkHeaderSize + padded(json.size()) + padded(binary.size());
   if (total > UINT32_MAX) {
@@ -41,14 +34,16 @@ std::string join_glb(std::string_view json, std::string_view binary) {
                 fmt::format("the GLB would have {} bytes, a GLB can have {}: write fewer frames or vertices",
                             total, UINT32_MAX));
   }
-  std::string bytes;
-  bytes.reserve(total);
-  append_u32(bytes, kMagic);
-  append_u32(bytes, kVersion);
-  append_u32(bytes, total);
-  append_chunk(bytes, kJson, json, ' ');
-  append_chunk(bytes, kBinary, binary, '\0');
-  return bytes;
+  std::string head;
+  for (const std::uint64_t word :
+       {std::uint64_t{kMagic}, std::uint64_t{kVersion}, total, padded(json.size()), std::uint64_t{kJson}})
+    append_u32(head, word);
+  head.append(json);
+  head.append(padded(json.size()) - json.size(), ' ');
+  for (const std::uint64_t word : {padded(binary.size()), std::uint64_t{kBinary}}) append_u32(head, word);
+  binary.append(padded(binary.size()) - binary.size(), '\0');
+  binary.insert(0, head);
+  return binary;
 }
 
 std::string_view glb_json(std::string_view bytes, const std::string& name) {

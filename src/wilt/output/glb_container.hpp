@@ -7,9 +7,10 @@
 
 namespace wilt {
 
-/// The bytes of a GLB; little-endian, chunks padded to 4 bytes. Throws Error{output} above 4 GB, which the
+/// The bytes of a GLB; little-endian, chunks padded to 4 bytes. `binary` becomes part of it where it has the
+/// capacity to. Throws Error{output} above 4 GB, which the
 /// format's 32-bit length cannot state.
-std::string join_glb(std::string_view json, std::string_view binary);
+std::string join_glb(std::string_view json, std::string binary);
 
 /// The JSON text of a GLB. Throws Error{input}, naming `name`, when `bytes` are no GLB of version 2 or are
 /// cut off.

@@ -4,11 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string_view>
 
 #include "wilt/core/check.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/core/parallel.hpp"
 #include "wilt/output/file.hpp"
 #include "wilt/output/glb_container.hpp"
 #include "wilt/output/glb_extras.hpp"
@@ -28,32 +31,50 @@ class Builder {
   tinygltf::Model model;
   std::string binary;
 
-  int add_view(const void* data, std::size_t size, int target) {
+  int add_view(std::size_t size, int target) {
     binary.resize((binary.size() + 3) / 4 * 4, '\0');
     tinygltf::BufferView view;
     view.buffer = 0;
     view.byteOffset = binary.size();
     view.byteLength = size;
     view.target = target;
-    binary.append(static_cast<const char*>(data), size);
+    binary.resize(binary.size() + size);
     model.bufferViews.push_back(view);
     return static_cast<int>(model.bufferViews.size()) - 1;
   }
+  int add_view(const void* data, std::size_t size, int target) {
+    const int view = add_view(size, target);
+    std::memcpy(at(view), data, size);
+    return view;
+  }
 
-  /// #N x (1, 2 or 3) values; the format asks for bounds of positions and of key times.
-  int add_floats(const Floats& values, int target, bool bounds) {
+  /// Room for #N x (1, 2 or 3) values, which fill() writes.
+  int add_floats(Eigen::Index rows, Eigen::Index columns, int target) {
     static constexpr std::array<int, 3> kTypes{TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3};
     tinygltf::Accessor accessor;
-    accessor.bufferView =
-        add_view(values.data(), static_cast<std::size_t>(values.size()) * sizeof(float), target);
+    accessor.bufferView = add_view(static_cast<std::size_t>(rows * columns) * sizeof(float), target);
     accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
-    accessor.type = kTypes.at(static_cast<std::size_t>(values.cols()) - 1);
-    accessor.count = static_cast<std::size_t>(values.rows());
+    accessor.type = kTypes.at(static_cast<std::size_t>(columns) - 1);
+    accessor.count = static_cast<std::size_t>(rows);
+    return add_accessor(accessor);
+  }
+
+  /// Writes the values of an accessor; the format asks for bounds of positions and of key times. Of different
+  /// accessors on several threads.
+  void fill(int number, const Floats& values, bool bounds) {
+    tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(number)];
+    std::memcpy(at(accessor.bufferView), values.data(),
+                static_cast<std::size_t>(values.size()) * sizeof(float));
     for (int c = 0; bounds && c < values.cols(); ++c) {
       accessor.minValues.push_back(values.col(c).minCoeff());
       accessor.maxValues.push_back(values.col(c).maxCoeff());
     }
-    return add_accessor(accessor);
+  }
+
+  int add_floats(const Floats& values, int target, bool bounds) {
+    const int number = add_floats(values.rows(), values.cols(), target);
+    fill(number, values, bounds);
+    return number;
   }
 
   int add_indices(const Faces& faces) {
@@ -69,6 +90,7 @@ class Builder {
   }
 
  private:
+  char* at(int view) { return binary.data() + model.bufferViews[static_cast<std::size_t>(view)].byteOffset; }
   int add_accessor(const tinygltf::Accessor& accessor) {
     model.accessors.push_back(accessor);
     return static_cast<int>(model.accessors.size()) - 1;
@@ -101,17 +123,27 @@ void add_mesh(Builder& builder, const Moving& moving, const std::vector<Frame>& 
     primitive.attributes["_WATER"] = builder.add_floats(moving.water.cast<float>(), kTarget, false);
   primitive.indices = builder.add_indices(moving.faces);
 
+  const int count = frames.size() > 1 ? static_cast<int>(frames.size()) : 0;
+  const bool coloured = moving.colour_count > 1;
   std::vector<tinygltf::Value> names;
-  for (int k = 0; frames.size() > 1 && k < static_cast<int>(frames.size()); ++k) {
-    const Shape shape = moving.shape(k);
+  for (int k = 0; k < count; ++k) {
     std::map<std::string, int> target;
-    target["POSITION"] = builder.add_floats(difference(shape.positions, positions), kTarget, true);
-    target["NORMAL"] = builder.add_floats(difference(shape.normals, normals), kTarget, false);
-    if (moving.colour_count > 1)
-      target["COLOR_0"] = builder.add_floats(difference(moving.colours(k), colours), kTarget, false);
+    for (const char* name : {"POSITION", "NORMAL", "COLOR_0"}) {
+      if (coloured || name != std::string_view("COLOR_0"))
+        target[name] = builder.add_floats(positions.rows(), 3, kTarget);
+    }
     primitive.targets.push_back(target);
     names.emplace_back(fmt::format("iteration {}", frames[static_cast<std::size_t>(k)].iteration));
   }
+  parallel_for(count, 1, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const Shape shape = moving.shape(k);
+      const std::map<std::string, int>& target = primitive.targets[static_cast<std::size_t>(k)];
+      builder.fill(target.at("POSITION"), difference(shape.positions, positions), true);
+      builder.fill(target.at("NORMAL"), difference(shape.normals, normals), false);
+      if (coloured) builder.fill(target.at("COLOR_0"), difference(moving.colours(k), colours), false);
+    }
+  });
   tinygltf::Mesh mesh;
   mesh.name = moving.name;
   mesh.primitives = {primitive};
@@ -208,7 +240,16 @@ std::string serialise(Builder& builder, const std::string& extras) {
   Json document = Json::parse(text.str());
   document["asset"]["extras"] = {{"wilt", Json::parse(extras)}};
   document["buffers"] = Json::array({{{"byteLength", builder.binary.size()}}});
-  return join_glb(document.dump(-1, ' ', false, Json::error_handler_t::replace), builder.binary);
+  return join_glb(document.dump(-1, ' ', false, Json::error_handler_t::replace), std::move(builder.binary));
+}
+
+// Of the file, or a little more, so that it need not move as it grows.
+std::size_t expected_size(const GlbScene& scene) {
+  const std::size_t corners = scene.leaf.skin.vertex.size(), frames = scene.frames.size();
+  const std::size_t per_shape = 6 * sizeof(float), per_colour = 3 * sizeof(float);
+  return corners * ((frames + 1) * per_shape + (scene.colours.size() + 1) * per_colour + 3 * sizeof(float)) +
+         static_cast<std::size_t>(scene.leaf.skin.faces.size()) * sizeof(std::uint32_t) +
+         scene.texture.size() + scene.normal_texture.size() + (frames + 4) * (std::size_t{1} << 16);
 }
 
 void check_scene(const GlbScene& scene) {
@@ -255,6 +296,8 @@ std::string glb_bytes(const GlbScene& scene, const GlbOptions& options) {
   options.validate();
   check_scene(scene);
   Builder builder;
+  const std::string extras = glb_extras(scene);
+  builder.binary.reserve(expected_size(scene) + 2 * extras.size());
   builder.model.asset.generator = fmt::format("wilt {}", version());
   builder.model.asset.version = "2.0";
   builder.model.scenes.emplace_back();
@@ -265,7 +308,7 @@ std::string glb_bytes(const GlbScene& scene, const GlbOptions& options) {
   if (scene.frames.front().stalk.rows() >= 2)
     add_mesh(builder, moving_stalk(scene, options.stalk_sides), scene.frames, add_material(builder, "stalk"));
   add_animation(builder, scene.frames, options.seconds);
-  return serialise(builder, glb_extras(scene));
+  return serialise(builder, extras);
 }
 
 void write_glb(const std::string& path, const GlbScene& scene, const GlbOptions& options) {

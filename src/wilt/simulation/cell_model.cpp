@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "wilt/core/check.hpp"
 #include "wilt/mechanics/area_limit.hpp"
@@ -181,10 +182,9 @@ void CellModel::update_bending() {
 }
 
 ForceBreakdown CellModel::forces(const Points3& x, const Points3& v) const {
-  return {system_.force_of("elastic", x, v) + system_.force_of("strain limit", x, v) +
-              system_.force_of("area limit", x, v),
-          system_.force_of("damping", x, v), system_.force_of("swelling", x, v),
-          system_.force_of("external", x, v)};
+  std::vector<Points3> f =
+      forces_of(system_, {"elastic", "strain limit", "area limit", "damping", "swelling", "external"}, x, v);
+  return {f[0] + f[1] + f[2], std::move(f[3]), std::move(f[4]), std::move(f[5])};
 }
 
 }  // namespace wilt

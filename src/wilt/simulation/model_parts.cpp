@@ -4,6 +4,7 @@
 #include <limits>
 #include <queue>
 
+#include "wilt/core/parallel.hpp"
 #include "wilt/mesh/geometry.hpp"
 
 namespace wilt {
@@ -72,6 +73,16 @@ Eigen::VectorXd farthest_of_vein_cell(const Leaf& leaf, const Venation& venation
   Eigen::VectorXd result(n);
   for (int v = 0; v < n; ++v) result[v] = farthest[nearest[v]];
   return result;
+}
+
+std::vector<Points3> forces_of(const System& system, const std::vector<std::string>& names, const Points3& x,
+                               const Points3& v) {
+  std::vector<Points3> forces(names.size());
+  parallel_for(static_cast<int>(names.size()), 1, [&](int begin, int end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+      forces[i] = system.force_of(names[i], x, v);
+  });
+  return forces;
 }
 
 }  // namespace wilt

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "wilt/simulation/deformation_model.hpp"
@@ -21,5 +22,9 @@ ExternalForce make_external_force(const ModelInput& input, double factor);
 /// For every vertex the distance (metres) of the farthest vertex that has the same nearest vein cell: gd_max
 /// as printed. Nearest along edges; vein cells are vertices within half a mean edge of a primary vein.
 Eigen::VectorXd farthest_of_vein_cell(const Leaf& leaf, const Venation& venation);
+
+/// The forces of the terms of these names, #V x 3 each, evaluated at the same time.
+std::vector<Points3> forces_of(const System& system, const std::vector<std::string>& names, const Points3& x,
+                               const Points3& v);
 
 }  // namespace wilt

@@ -1,5 +1,8 @@
 #include "wilt/simulation/paper_model.hpp"
 
+#include <utility>
+
+#include "wilt/core/parallel.hpp"
 #include "wilt/mechanics/edge_energies.hpp"
 #include "wilt/mesh/geometry.hpp"
 #include "wilt/simulation/model_parts.hpp"
@@ -20,12 +23,14 @@ Eigen::VectorXd printed_mass(const ModelInput& input) {
 Eigen::MatrixX2d swelling_coefficients(const SurfaceMesh& mesh, const FaceData<double>& areas,
                                        const Eigen::VectorXd& pressure_drop, double k_p) {
   Eigen::MatrixX2d c(mesh.num_edges(), 2);
-  for (const EdgeId e : mesh.edges()) {
-    const HalfedgeId h = mesh.halfedge(e);
-    const double left = areas[mesh.face(h)];
-    const double right = mesh.is_boundary(e) ? left : areas[mesh.face(mesh.twin(h))];
-    c.row(e) << k_p * left * pressure_drop[mesh.from(h)], k_p * right * pressure_drop[mesh.to(h)];
-  }
+  parallel_for(mesh.num_edges(), 4096, [&](int begin, int end) {
+    for (EdgeId e(begin); e < end; e = EdgeId(e + 1)) {
+      const HalfedgeId h = mesh.halfedge(e);
+      const double left = areas[mesh.face(h)];
+      const double right = mesh.is_boundary(e) ? left : areas[mesh.face(mesh.twin(h))];
+      c.row(e) << k_p * left * pressure_drop[mesh.from(h)], k_p * right * pressure_drop[mesh.to(h)];
+    }
+  });
   return c;
 }
 
@@ -60,8 +65,8 @@ void PaperModel::advance(double dt, const Points3& x) {
 }
 
 ForceBreakdown PaperModel::forces(const Points3& x, const Points3& v) const {
-  return {system_.force_of("elastic", x, v), system_.force_of("damping", x, v),
-          system_.force_of("swelling", x, v), system_.force_of("external", x, v)};
+  std::vector<Points3> f = forces_of(system_, {"elastic", "damping", "swelling", "external"}, x, v);
+  return {std::move(f[0]), std::move(f[1]), std::move(f[2]), std::move(f[3])};
 }
 
 DeformationModel::Hanging PaperModel::hanging() const {

@@ -61,8 +61,9 @@ bool share_a_vertex(const Faces& faces, int f, int g) {
 }
 
 // Triangles by the cell of a grid in which the middle of their box lies. A cell is as large as the largest
-// box, so what meets a triangle lies in its cell or in those around it. The rows of the grid (along x) lie in
-// one table, each from where a hash of y and z puts it: what a row's slots hold must be asked for its row.
+// box, so what meets a triangle lies in its cell or in those around it. The rows of the grid (along x) share
+// a table of fewer rows, next to each other there when they are next in y: what stands in a row of the table
+// must be asked for its y and z.
 class CellGrid {
  public:
   struct Entry {
@@ -76,21 +77,23 @@ class CellGrid {
       all.extend(box);
       size = std::max(size, box.sizes().maxCoeff());
     }
-    size = size > 0.0 ? size * (1.0 + 1e-9) : 1.0;
-    const auto entry_of = [&](std::size_t f) -> Entry {
-      const Eigen::Vector3i c = ((boxes[f].center() - all.min()) / size).array().floor().cast<int>().matrix();
-      return {static_cast<int>(f), c.x(), c.y(), c.z()};
-    };
-    while (mask_ + 1 < boxes.size()) mask_ = 2 * mask_ + 1;
-    const std::size_t longest = static_cast<std::size_t>(all.sizes().x() / size) + 1;
-    starts_.assign(mask_ + longest + 4, 0);
-    for (std::size_t f = 0; f < boxes.size(); ++f) ++starts_[slot(entry_of(f)) + 1];
+    const double per_cell = size > 0.0 ? 1.0 / (size * (1.0 + 1e-9)) : 1.0;
+    const int count = static_cast<int>(boxes.size());
+    std::vector<Entry> by_face(boxes.size());
+    parallel_for(count, 4096, [&](int begin, int end) {
+      for (int f = begin; f < end; ++f) {
+        const Vec3 place = (boxes[static_cast<std::size_t>(f)].center() - all.min()) * per_cell;
+        by_face[static_cast<std::size_t>(f)] = {f, static_cast<int>(place.x()), static_cast<int>(place.y()),
+                                                static_cast<int>(place.z())};
+      }
+    });
+    stride_ = static_cast<std::size_t>(all.sizes().x() * per_cell) + 4;
+    while ((mask_ + 1) * stride_ < boxes.size()) mask_ = 2 * mask_ + 1;
+    starts_.assign((mask_ + 1) * stride_ + 1, 0);
+    for (const Entry& entry : by_face) ++starts_[slot(entry) + 1];
     for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
     std::vector<int> filled = starts_;
-    for (std::size_t f = 0; f < boxes.size(); ++f) {
-      const Entry entry = entry_of(f);
-      entries_[static_cast<std::size_t>(filled[slot(entry)]++)] = entry;
-    }
+    for (const Entry& entry : by_face) entries_[static_cast<std::size_t>(filled[slot(entry)]++)] = entry;
   }
 
   const std::vector<Entry>& entries() const { return entries_; }
@@ -114,14 +117,13 @@ class CellGrid {
  private:
   // One free slot before each row, for the cell at x = -1.
   std::size_t slot(const Entry& cell) const {
+    constexpr int kApart = 977;  // rows between layers
     return 1 + static_cast<std::size_t>(cell.x) +
-           ((static_cast<std::size_t>(cell.y) * 0x9e3779b1u +
-             static_cast<std::size_t>(cell.z) * 0x85ebca77u) &
-            mask_);
+           (static_cast<std::size_t>(cell.y + kApart * cell.z) & mask_) * stride_;
   }
 
-  std::size_t mask_ = 63;
-  std::vector<int> starts_;  // of each slot, in entries_
+  std::size_t mask_ = 15, stride_ = 0;  // rows of the table less one, slots in each
+  std::vector<int> starts_;             // of each slot, in entries_
   std::vector<Entry> entries_;
 };
 

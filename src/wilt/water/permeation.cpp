@@ -5,22 +5,19 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCore>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "wilt/core/error.hpp"
+#include "wilt/core/parallel.hpp"
 
 namespace wilt {
 namespace {
 
-using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-
 constexpr int kMaxIterations = 1000;
+constexpr int kGrain = 4096;  // cells that one thread takes
 
 // The message is made only when it is needed: there is one check for every cell and step.
 template <class... Values>
@@ -56,54 +53,97 @@ void PermeationOptions::validate() const {
   demand(tolerance > 0.0 && tolerance < 1.0, "tolerance", tolerance, "between 0 and 1");
 }
 
+// One place for every edge at either end: those of cell i stand from starts[i] to starts[i + 1]. Every cell
+// gathers from its neighbours, so that cells can be worked on at the same time.
 struct Permeation::Impl {
-  Edges edges;
-  Eigen::VectorXd rest_lengths;
-  Eigen::VectorXd length_sums;  // per vertex, of the incident edges
+  std::vector<int> starts, neighbours;
+  Eigen::VectorXd rest_lengths;  // per place
+  Eigen::VectorXd length_sums;   // per vertex, of the incident edges
   double mean_length_sum = 0.0;
   PermeationOptions options;
-  SparseRows matrix;
-  std::vector<int> diagonal;            // where entry (i, i) stands in matrix.valuePtr()
-  std::vector<std::array<int, 2>> off;  // (i, j) and (j, i) of each edge
-  Eigen::VectorXd conductance;          // g_ij per edge
+  Eigen::VectorXd conductance, diagonal;  // dt g_ij per place; b_i + dt sum_j g_ij
 
-  void build_pattern(int vertex_count);
-  void fill(const Eigen::VectorXd& dry, const Eigen::VectorXd& water, double dt);
+  int cells() const { return static_cast<int>(length_sums.size()); }
+  void build(int vertex_count, const Edges& edges, const Eigen::VectorXd& lengths);
+  void fill(const Eigen::VectorXd& dry, const Eigen::VectorXd& mass, double dt);
+  Eigen::VectorXd times(const Eigen::VectorXd& u) const;
+  Eigen::VectorXd solve(const Eigen::VectorXd& right, Eigen::VectorXd u, WaterReport& report) const;
   WaterReport bound(Eigen::VectorXd& next, double asked) const;
 };
 
-void Permeation::Impl::build_pattern(int vertex_count) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int i = 0; i < vertex_count; ++i) entries.emplace_back(i, i, 1.0);
+void Permeation::Impl::build(int vertex_count, const Edges& edges, const Eigen::VectorXd& lengths) {
+  starts.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
   for (int e = 0; e < edges.rows(); ++e) {
-    entries.emplace_back(edges(e, 0), edges(e, 1), 1.0);
-    entries.emplace_back(edges(e, 1), edges(e, 0), 1.0);
+    for (int k = 0; k < 2; ++k) ++starts[static_cast<std::size_t>(edges(e, k)) + 1];
   }
-  matrix.resize(vertex_count, vertex_count);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const auto place = [&](int i, int j) {
-    const int* begin = matrix.innerIndexPtr() + matrix.outerIndexPtr()[i];
-    const int* end = matrix.innerIndexPtr() + matrix.outerIndexPtr()[i + 1];
-    return static_cast<int>(std::lower_bound(begin, end, j) - matrix.innerIndexPtr());
-  };
-  for (int i = 0; i < vertex_count; ++i) diagonal.push_back(place(i, i));
-  for (int e = 0; e < edges.rows(); ++e)
-    off.push_back({place(edges(e, 0), edges(e, 1)), place(edges(e, 1), edges(e, 0))});
+  for (std::size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
+  neighbours.resize(2 * static_cast<std::size_t>(edges.rows()));
+  rest_lengths.resize(2 * edges.rows());
+  conductance.resize(2 * edges.rows());
+  diagonal.resize(vertex_count);
+  std::vector<int> filled(starts.begin(), starts.end() - 1);
+  for (int e = 0; e < edges.rows(); ++e) {
+    for (int k = 0; k < 2; ++k) {
+      const int place = filled[static_cast<std::size_t>(edges(e, k))]++;
+      neighbours[static_cast<std::size_t>(place)] = edges(e, 1 - k);
+      rest_lengths[place] = lengths[e];
+    }
+  }
 }
 
-void Permeation::Impl::fill(const Eigen::VectorXd& dry, const Eigen::VectorXd& water, double dt) {
-  double* values = matrix.valuePtr();
-  std::fill(values, values + matrix.nonZeros(), 0.0);
-  for (int i = 0; i < dry.size(); ++i) values[diagonal[i]] = dry[i];
-  for (int e = 0; e < edges.rows(); ++e) {
-    const int i = edges(e, 0), j = edges(e, 1);
-    const double g = 2.0 * options.lambda * dry[i] * dry[j] /
-                     (mean_length_sum * rest_lengths[e] * (dry[i] + water[i] + dry[j] + water[j]));
-    conductance[e] = g;
-    values[diagonal[i]] += dt * g;
-    values[diagonal[j]] += dt * g;
-    for (const int place : off[e]) values[place] -= dt * g;
+void Permeation::Impl::fill(const Eigen::VectorXd& dry, const Eigen::VectorXd& mass, double dt) {
+  parallel_for(cells(), kGrain, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      diagonal[i] = dry[i];
+      for (int place = starts[i]; place < starts[i + 1]; ++place) {
+        const int j = neighbours[place];
+        conductance[place] = dt * 2.0 * options.lambda * (dry[i] * dry[j]) /
+                             (mean_length_sum * rest_lengths[place] * (mass[i] + mass[j]));
+        diagonal[i] += conductance[place];
+      }
+    }
+  });
+}
+
+Eigen::VectorXd Permeation::Impl::times(const Eigen::VectorXd& u) const {
+  Eigen::VectorXd product(u.size());
+  parallel_for(cells(), kGrain, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      double sum = diagonal[i] * u[i];
+      for (int place = starts[i]; place < starts[i + 1]; ++place)
+        sum -= conductance[place] * u[neighbours[place]];
+      product[i] = sum;
+    }
+  });
+  return product;
+}
+
+// Conjugate gradients from `u`, preconditioned by the diagonal.
+Eigen::VectorXd Permeation::Impl::solve(const Eigen::VectorXd& right, Eigen::VectorXd u,
+                                        WaterReport& report) const {
+  const auto dot = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+    return parallel_sum(static_cast<int>(a.size()), kGrain, [&](int begin, int end) {
+      return a.segment(begin, end - begin).dot(b.segment(begin, end - begin));
+    });
+  };
+  const double scale = std::sqrt(dot(right, right));
+  Eigen::VectorXd residual = right - times(u), towards = residual.cwiseQuotient(diagonal);
+  double descent = dot(residual, towards);
+  report.residual = scale > 0.0 ? std::sqrt(dot(residual, residual)) / scale : 0.0;
+  while (report.residual > options.tolerance && report.iterations < kMaxIterations) {
+    const Eigen::VectorXd change = times(towards);
+    const double step = descent / dot(towards, change);
+    u += step * towards;
+    residual -= step * change;
+    const Eigen::VectorXd next = residual.cwiseQuotient(diagonal);
+    const double next_descent = dot(residual, next);
+    towards = next + (next_descent / descent) * towards;
+    descent = next_descent;
+    report.residual = std::sqrt(dot(residual, residual)) / scale;
+    ++report.iterations;
   }
+  report.converged = report.residual <= options.tolerance;
+  return u;
 }
 
 // Raises every cell to the lower bound; `asked` is the water that the loss asked for.
@@ -143,12 +183,9 @@ Permeation::Permeation(int vertex_count, const Edges& edges, const Eigen::Vector
     impl_->length_sums[i] += rest_lengths[e];
     impl_->length_sums[j] += rest_lengths[e];
   }
-  impl_->edges = edges;
-  impl_->rest_lengths = rest_lengths;
   impl_->mean_length_sum = impl_->length_sums.mean();
   impl_->options = options;
-  impl_->conductance = Eigen::VectorXd::Zero(edges.rows());
-  impl_->build_pattern(vertex_count);
+  impl_->build(vertex_count, edges, rest_lengths);
 }
 
 Permeation::~Permeation() = default;
@@ -157,49 +194,51 @@ Permeation& Permeation::operator=(Permeation&&) noexcept = default;
 
 WaterReport Permeation::step(const Eigen::VectorXd& dry, Eigen::VectorXd& water, const Eigen::VectorXd& loss,
                              double dt) {
-  check_cells(dry, water, loss, dt, impl_->length_sums.size());
-  impl_->fill(dry, water, dt);
-  Eigen::ConjugateGradient<SparseRows, Eigen::Lower | Eigen::Upper> solver;
-  solver.setTolerance(impl_->options.tolerance);
-  solver.setMaxIterations(kMaxIterations);
-  solver.compute(impl_->matrix);
-  const Eigen::VectorXd u = solver.solveWithGuess(water - dt * loss, water.cwiseQuotient(dry));
-
-  Eigen::VectorXd next = water - dt * loss;
-  for (int e = 0; e < impl_->edges.rows(); ++e) {
-    const int i = impl_->edges(e, 0), j = impl_->edges(e, 1);
-    const double flow = dt * impl_->conductance[e] * (u[j] - u[i]);
-    next[i] += flow;
-    next[j] -= flow;
-  }
-  WaterReport report = impl_->bound(next, dt * loss.sum());
-  report.iterations = static_cast<int>(solver.iterations());
-  report.residual = solver.error();
-  report.converged = solver.info() == Eigen::Success;
+  Impl& p = *impl_;
+  check_cells(dry, water, loss, dt, p.cells());
+  p.fill(dry, dry + water, dt);
+  WaterReport solved;
+  const Eigen::VectorXd u = p.solve(water - dt * loss, water.cwiseQuotient(dry), solved);
+  Eigen::VectorXd next(water.size());
+  parallel_for(p.cells(), kGrain, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      next[i] = water[i] - dt * loss[i];
+      for (int place = p.starts[i]; place < p.starts[i + 1]; ++place)
+        next[i] += p.conductance[place] * (u[p.neighbours[place]] - u[i]);
+    }
+  });
+  WaterReport report = p.bound(next, dt * loss.sum());
+  report.iterations = solved.iterations;
+  report.residual = solved.residual;
+  report.converged = solved.converged;
   water = std::move(next);
   return report;
 }
 
 WaterReport Permeation::printed_step(const Eigen::VectorXd& dry, Eigen::VectorXd& water,
                                      const Eigen::VectorXd& loss, double dt) {
-  check_cells(dry, water, loss, dt, impl_->length_sums.size());
-  Eigen::VectorXd laplacian = Eigen::VectorXd::Zero(water.size());
-  for (int e = 0; e < impl_->edges.rows(); ++e) {
-    const int i = impl_->edges(e, 0), j = impl_->edges(e, 1);
-    const double flow = impl_->options.lambda * (dry[i] * water[j] - dry[j] * water[i]) /
-                        (impl_->rest_lengths[e] * (dry[i] + water[i] + dry[j] + water[j]));
-    laplacian[i] += 2.0 * flow / impl_->length_sums[i];
-    laplacian[j] -= 2.0 * flow / impl_->length_sums[j];
-  }
-  Eigen::VectorXd next = water - dt * loss;
-  for (int i = 0; i < next.size(); ++i) {
-    const double divisor = 1.0 - dt * laplacian[i];
-    require(divisor > 0.0,
+  const Impl& p = *impl_;
+  check_cells(dry, water, loss, dt, p.cells());
+  const Eigen::VectorXd mass = dry + water;
+  Eigen::VectorXd divisor(water.size());
+  parallel_for(p.cells(), kGrain, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      double sum = 0.0;
+      for (int place = p.starts[i]; place < p.starts[i + 1]; ++place) {
+        const int j = p.neighbours[place];
+        sum += p.options.lambda * (dry[i] * water[j] - dry[j] * water[i]) /
+               (p.rest_lengths[place] * (mass[i] + mass[j]));
+      }
+      divisor[i] = 1.0 - dt * 2.0 * sum / p.length_sums[i];
+    }
+  });
+  for (int i = 0; i < divisor.size(); ++i) {
+    require(divisor[i] > 0.0,
             "the printed permeation divides cell {} by {}; take a smaller step or the conservative form", i,
-            divisor);
-    next[i] /= divisor;
+            divisor[i]);
   }
-  WaterReport report = impl_->bound(next, dt * loss.sum());
+  Eigen::VectorXd next = (water - dt * loss).cwiseQuotient(divisor);
+  WaterReport report = p.bound(next, dt * loss.sum());
   report.lost = water.sum() - next.sum();
   water = std::move(next);
   return report;
