@@ -16,8 +16,8 @@ namespace wilt {
 namespace {
 
 using detail::FastMarch;
-using detail::HalfedgeFrame;
-using detail::Unfolding;
+using detail::MarchFace;
+using detail::MarchSurface;
 
 // Sources between two looks at the monitor.
 constexpr int kBlock = 64;
@@ -42,19 +42,19 @@ std::array<HalfedgeId, 3> halfedges(const SurfaceMesh& mesh, FaceId f) {
 }
 
 // A point of the face of h in the frame of h.
-Vec2 in_frame(const SurfaceMesh& mesh, const Unfolding& unfolding, HalfedgeId h, const SurfacePoint& point) {
-  const HalfedgeFrame& frame = unfolding.frame(h);
-  const int k = h - mesh.halfedge(point.face);
-  return point.barycentric[(k + 1) % 3] * Vec2(frame.length, 0.0) +
-         point.barycentric[(k + 2) % 3] * frame.apex;
+Vec2 in_frame(const MarchSurface& surface, HalfedgeId h, const SurfacePoint& point) {
+  const MarchFace& face = surface.face(h);
+  const int k = h - surface.mesh().halfedge(point.face);
+  return point.barycentric[(k + 1) % 3] * Vec2(surface.edge(h).length, 0.0) +
+         point.barycentric[(k + 2) % 3] * Vec2(face.apex_x, face.apex_y);
 }
 
 // Seeds the corners of a face with the segment a b in it.
-void seed_segment(const SurfaceMesh& mesh, const Unfolding& unfolding, const SurfacePoint& a,
-                  const SurfacePoint& b, FastMarch& march) {
-  for (const HalfedgeId h : halfedges(mesh, a.face)) {
+void seed_segment(const MarchSurface& surface, const SurfacePoint& a, const SurfacePoint& b,
+                  FastMarch& march) {
+  for (const HalfedgeId h : halfedges(surface.mesh(), a.face)) {
     // In the frame of h its first vertex is the origin; the face lies counter-clockwise from h.
-    const Vec2 p = in_frame(mesh, unfolding, h, a), q = in_frame(mesh, unfolding, h, b);
+    const Vec2 p = in_frame(surface, h, a), q = in_frame(surface, h, b);
     const double squared = (q - p).squaredNorm();
     const double t = squared > 0.0 ? std::clamp(-p.dot(q - p) / squared, 0.0, 1.0) : 0.0;
     const Vec2 nearest = p + t * (q - p);
@@ -62,8 +62,8 @@ void seed_segment(const SurfaceMesh& mesh, const Unfolding& unfolding, const Sur
   }
 }
 
-void seed_path(const SurfaceMesh& mesh, const Unfolding& unfolding, const SurfacePath& path,
-               FastMarch& march) {
+void seed_path(const MarchSurface& surface, const SurfacePath& path, FastMarch& march) {
+  const SurfaceMesh& mesh = surface.mesh();
   for (const SurfacePoint& point : path.points) check_point(mesh, point);
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     const SurfacePoint& a = path.points[i];
@@ -72,7 +72,7 @@ void seed_path(const SurfaceMesh& mesh, const Unfolding& unfolding, const Surfac
     for (const FaceId f : faces_at(mesh, a)) {
       if (!lies_in(mesh, b, f)) continue;
       together = true;
-      seed_segment(mesh, unfolding, in_face(mesh, a, f), in_face(mesh, b, f), march);
+      seed_segment(surface, in_face(mesh, a, f), in_face(mesh, b, f), march);
     }
     if (!together)
       throw Error(ErrorCode::input,
@@ -113,9 +113,7 @@ void for_sources(int count, const Monitor& monitor, const std::function<void(int
 }  // namespace
 
 FastGeodesics::FastGeodesics(const SurfaceMesh& mesh, const Points3& positions)
-    : mesh_(mesh),
-      unfolding_(std::make_shared<const Unfolding>(mesh, positions)),
-      surface_(std::make_shared<const detail::MarchSurface>(mesh, *unfolding_)) {}
+    : mesh_(mesh), surface_(std::make_shared<const MarchSurface>(mesh, detail::Unfolding(mesh, positions))) {}
 
 Eigen::VectorXd FastGeodesics::distances(VertexId source) const {
   return distances(std::span<const VertexId>(&source, 1));
@@ -136,7 +134,7 @@ Eigen::MatrixXd FastGeodesics::distances(std::span<const VertexId> sources, cons
 
 Eigen::VectorXd FastGeodesics::distances(std::span<const SurfacePath> sources) const {
   FastMarch march(*surface_);
-  for (const SurfacePath& path : sources) seed_path(mesh_, *unfolding_, path, march);
+  for (const SurfacePath& path : sources) seed_path(*surface_, path, march);
   Eigen::VectorXd result(mesh_.num_vertices());
   march.run(result.data());
   return result;

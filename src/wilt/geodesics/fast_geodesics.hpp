@@ -12,14 +12,13 @@ namespace wilt {
 
 namespace detail {
 class MarchSurface;
-class Unfolding;
-}  // namespace detail
+}
 
 /// Distances from a front that carries the unfolded image of its source from face to face.
 ///
-/// Keeps references to mesh and positions (#V x 3): both must outlive it. Queries are const and may run in
-/// parallel. Deterministic, O(#V log #V). The constructor throws Error{input} when positions do not fit the
-/// mesh or a face has no area; queries do when a source does not lie on the mesh.
+/// Keeps a reference to the mesh, which must outlive it; positions are #V x 3. Queries are const and may run
+/// in parallel. Deterministic, O(#V log #V). The constructor throws Error{input} when positions do not fit
+/// the mesh or a face has no area; queries do when a source does not lie on the mesh.
 class FastGeodesics {
  public:
   FastGeodesics(const SurfaceMesh& mesh, const Points3& positions);
@@ -35,7 +34,6 @@ class FastGeodesics {
 
  private:
   const SurfaceMesh& mesh_;
-  std::shared_ptr<const detail::Unfolding> unfolding_;
   std::shared_ptr<const detail::MarchSurface> surface_;
 };
 
