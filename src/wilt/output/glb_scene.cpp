@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 
+#include "wilt/core/parallel.hpp"
 #include "wilt/core/srgb.hpp"
 #include "wilt/leaf/species.hpp"
 #include "wilt/output/gltf.hpp"
@@ -46,8 +48,12 @@ GlbScene glb_scene(const Leaf& leaf, const Venation& venation, const Config& con
   const auto texels = BladeTexels::make(leaf, venation, static_cast<int>(config.texture.size));
   if (!texels) return scene;
   const Eigen::VectorXd& dryness = frames.back().dryness;
-  scene.texture = encode_jpeg(leaf_texture(*texels, pattern, tissue, dryness, gain));
-  scene.normal_texture = encode_jpeg(leaf_relief(*texels, dryness));
+  const std::array<Image, 2> maps{leaf_texture(*texels, pattern, tissue, dryness, gain),
+                                  leaf_relief(*texels, dryness)};
+  const std::array<std::string*, 2> encoded{&scene.texture, &scene.normal_texture};
+  parallel_for(2, 1, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) *encoded[k] = encode_jpeg(maps[k]);
+  });
   const Points3 shown = scene.colours.back().cwiseMax(kDarkest) * gain.asDiagonal();
   for (Points3& frame : scene.colours) frame = frame.cwiseMax(kDarkest).cwiseQuotient(shown).cwiseMin(1.0);
   return scene;

@@ -7,7 +7,6 @@
 #include "wilt/core/check.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/output/file.hpp"
-#include "wilt/output/jpeg.hpp"
 
 // Ours alone (static): other sources, and tinygltf, may hold theirs.
 #define STB_IMAGE_STATIC
@@ -50,8 +49,11 @@ void check_size(const Image& image) {
 
 std::string encode_jpeg(const Image& image, int quality) {
   check_size(image);
-  if (image.width > 65535 || image.height > 65535) cannot_encode(image, "JPEG");
-  return baseline_jpeg(image, quality);
+  std::string bytes;
+  if (image.width > 65535 || image.height > 65535 ||
+      !stbi_write_jpg_to_func(append, &bytes, image.width, image.height, 3, image.rgb.data(), quality))
+    cannot_encode(image, "JPEG");
+  return bytes;
 }
 
 std::string encode_png(const Image& image) {
