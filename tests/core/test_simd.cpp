@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wilt/core/simd.hpp"
+#include "wilt/core/simd_atan2.hpp"
 
 namespace wilt {
 namespace {
@@ -54,6 +55,39 @@ TEST(Simd, rootsAndSumsAsOneByOne) {
   const Double8 roots = simd::sqrt(v);
   for (int l = 0; l < simd::kLanes; ++l) EXPECT_EQ(roots[l], std::sqrt(v[l]));
   EXPECT_EQ(simd::sum(Double8{1, 2, 4, 8, 16, 32, 64, 128}), 255.0);
+}
+
+// Oracle: std::atan2, on a circle that passes through all axes and diagonals, with radii and flat angles of
+// all sizes; 4 units in the last place.
+TEST(Simd, measuresAnglesAsTheStandardLibraryDoes) {
+  std::vector<double> ys, xs;
+  const auto add = [&](double y, double x) {
+    ys.push_back(y);
+    xs.push_back(x);
+  };
+  for (int k = -3600; k <= 3600; ++k) {
+    const double angle = k * (M_PI / 3600.0), radius = std::pow(10.0, k % 90);
+    add(radius * std::sin(angle), radius * std::cos(angle));
+  }
+  for (int k = 0; k < 200; ++k) {
+    const double tiny = std::pow(0.5, k);
+    for (const double sign : {-1.0, 1.0}) {
+      add(sign * tiny, 1.0);
+      add(sign * tiny, -1.0);
+      add(1.0, sign * tiny);
+    }
+  }
+  for (const double y : {-1.0, 0.0, 1.0}) {
+    for (const double x : {-1.0, 0.0, 1.0}) add(y, x);
+  }
+  while (ys.size() % simd::kLanes != 0) add(1.0, 1.0);
+  for (std::size_t k = 0; k < ys.size(); k += simd::kLanes) {
+    const Double8 angles = simd::atan2(simd::load(ys.data() + k), simd::load(xs.data() + k));
+    for (int l = 0; l < simd::kLanes; ++l) {
+      const double expected = std::atan2(ys[k + l], xs[k + l]);
+      ASSERT_NEAR(angles[l], expected, 4 * 2.2e-16 * std::abs(expected)) << ys[k + l] << " " << xs[k + l];
+    }
+  }
 }
 
 }  // namespace

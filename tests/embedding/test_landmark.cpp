@@ -14,11 +14,11 @@ using test::euclidean_distances;
 using test::procrustes_error;
 using test::scattered;
 
-Eigen::MatrixXd rows_of(const Eigen::MatrixXd& distances, const std::vector<int>& landmarks) {
-  Eigen::MatrixXd rows(landmarks.size(), distances.cols());
+Eigen::MatrixXd columns_of(const Eigen::MatrixXd& distances, const std::vector<int>& landmarks) {
+  Eigen::MatrixXd columns(distances.rows(), landmarks.size());
   for (std::size_t a = 0; a < landmarks.size(); ++a)
-    rows.row(static_cast<Eigen::Index>(a)) = distances.row(landmarks[a]);
-  return rows;
+    columns.col(static_cast<Eigen::Index>(a)) = distances.col(landmarks[a]);
+  return columns;
 }
 
 std::vector<int> every(int step, int count) {
@@ -31,7 +31,7 @@ std::vector<int> every(int step, int count) {
 TEST(LandmarkMds, RecoversPlanarPoints) {
   const Points2 points = scattered(400, 3.0, 2);
   const std::vector<int> landmarks = every(20, 400);
-  const Embedding embedding = landmark_mds(rows_of(euclidean_distances(points), landmarks), landmarks);
+  const Embedding embedding = landmark_mds(columns_of(euclidean_distances(points), landmarks), landmarks);
   EXPECT_LT(procrustes_error(embedding.coordinates, points), 1e-5);
 }
 
@@ -42,7 +42,7 @@ TEST(LandmarkMds, ComesNearTheFullEmbedding) {
   const Eigen::MatrixXd distances = test::spherical_distances(angles);
   const std::vector<int> landmarks = every(9, 500);
   const Embedding full = smacof(distances, classical_mds(distances).coordinates);
-  const Embedding few = landmark_mds(rows_of(distances, landmarks), landmarks);
+  const Embedding few = landmark_mds(columns_of(distances, landmarks), landmarks);
   EXPECT_LT(procrustes_error(few.coordinates, full.coordinates), 0.01 * distances.maxCoeff());
   EXPECT_LT(few.stress, 2.0 * full.stress);
   EXPECT_GT(few.stress, 0.5 * full.stress);
@@ -52,7 +52,7 @@ TEST(LandmarkMds, ComesNearTheFullEmbedding) {
 TEST(LandmarkMds, PutsEachVertexWhereItsStressIsLeast) {
   const Eigen::MatrixXd distances = test::spherical_distances(scattered(200, 1.5, 3));
   const std::vector<int> landmarks = every(10, 200);
-  const Points2 points = landmark_mds(rows_of(distances, landmarks), landmarks).coordinates;
+  const Points2 points = landmark_mds(columns_of(distances, landmarks), landmarks).coordinates;
   const auto stress = [&](int v, const Vec2& x) {
     double sum = 0.0;
     for (const int a : landmarks) {
@@ -71,7 +71,7 @@ TEST(LandmarkMds, PutsEachVertexWhereItsStressIsLeast) {
 // Oracle: the same bytes with one thread.
 TEST(LandmarkMds, DoesNotDependOnTheNumberOfThreads) {
   const std::vector<int> landmarks = every(13, 400);
-  const Eigen::MatrixXd distances = rows_of(test::spherical_distances(scattered(400, 1.0, 2)), landmarks);
+  const Eigen::MatrixXd distances = columns_of(test::spherical_distances(scattered(400, 1.0, 2)), landmarks);
   const auto with = [&](int threads) {
     const ThreadLimit limit(threads);
     return landmark_mds(distances, landmarks).coordinates;
@@ -81,12 +81,12 @@ TEST(LandmarkMds, DoesNotDependOnTheNumberOfThreads) {
 
 TEST(LandmarkMds, RefusesWrongLandmarks) {
   const Eigen::MatrixXd distances = euclidean_distances(scattered(20, 1.0, 2));
-  EXPECT_THROW(landmark_mds(distances.topRows(2), {0, 1}), Error);
-  EXPECT_THROW(landmark_mds(distances.topRows(4), {0, 1, 2}), Error);
-  EXPECT_THROW(landmark_mds(distances.topRows(3), {0, 1, 20}), Error);
-  EXPECT_THROW(landmark_mds(distances.topRows(3), {0, 1, -1}), Error);
-  Eigen::MatrixXd broken = distances.topRows(3);
-  broken(2, 9) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(landmark_mds(distances.leftCols(2), {0, 1}), Error);
+  EXPECT_THROW(landmark_mds(distances.leftCols(4), {0, 1, 2}), Error);
+  EXPECT_THROW(landmark_mds(distances.leftCols(3), {0, 1, 20}), Error);
+  EXPECT_THROW(landmark_mds(distances.leftCols(3), {0, 1, -1}), Error);
+  Eigen::MatrixXd broken = distances.leftCols(3);
+  broken(9, 2) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(landmark_mds(broken, {0, 1, 2}), Error);
 }
 

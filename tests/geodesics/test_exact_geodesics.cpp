@@ -239,6 +239,27 @@ TEST(ExactGeodesics, PathsAreAsLongAsDistances) {
   expect_paths_fit(test::leaf(12, {.bumps = 0.3, .hole = true, .seed = 3}), VertexId(60));
 }
 
+// Differential: a search that is bounded to a band around the path finds the same; one that leaves the target
+// out finds nothing.
+TEST(ExactGeodesics, FindTheSamePathInABand) {
+  const test::Surface surface = test::leaf(12, {.depth = 0.5, .bumps = 0.1, .seed = 4});
+  const ExactGeodesics geodesics(surface.mesh, surface.positions);
+  const VertexId source(0);
+  const Eigen::VectorXd from_source = geodesics.distances(source);
+  for (const int target : {100, 250, surface.mesh.num_vertices() - 1}) {
+    const SurfacePath path = geodesics.paths(source, {VertexId(target)})[0];
+    const Eigen::VectorXd sum = from_source + geodesics.distances(VertexId(target));
+    std::vector<char> within(surface.mesh.num_vertices());
+    for (const VertexId v : surface.mesh.vertices()) within[v] = sum[v] <= path.length + 0.1 ? 1 : 0;
+    EXPECT_LT(std::accumulate(within.begin(), within.end(), 0), surface.mesh.num_vertices() / 2);
+    const SurfacePath same = geodesics.paths(source, {VertexId(target)}, within)[0];
+    ASSERT_EQ(same.points.size(), path.points.size()) << target;
+    EXPECT_EQ(same.length, path.length) << target;
+    within.assign(within.size(), 0);
+    EXPECT_TRUE(geodesics.paths(source, {VertexId(target)}, within)[0].points.empty());
+  }
+}
+
 // Oracle: a path through flat faces and along edges is the straight segment, each point on it.
 TEST(ExactGeodesics, PathsOnAFlatMeshAreSegments) {
   const test::Surface surface = test::grid(8, 8);

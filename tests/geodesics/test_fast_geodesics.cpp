@@ -19,8 +19,9 @@ TEST(FastGeodesics, EqualEuclidOnAFlatConvexMesh) {
   for (const VertexId source : surface.mesh.vertices()) {
     const Eigen::VectorXd euclid =
         (surface.positions.rowwise() - surface.positions.row(source)).rowwise().norm();
-    // A ray may miss an edge by 1e-6 of it: an error of the second order.
-    EXPECT_LT((geodesics.distances(source) - euclid).cwiseAbs().maxCoeff(), 1e-9) << int(source);
+    // Directions are in single precision, and a ray may miss an edge by 1e-6 of it: errors of the second
+    // order.
+    EXPECT_LT((geodesics.distances(source) - euclid).cwiseAbs().maxCoeff(), 1e-8) << int(source);
   }
 }
 
@@ -49,7 +50,8 @@ TEST(FastGeodesics, AreNearTheExactOnes) {
   }
 }
 
-// Oracle: the distance to a segment that crosses a flat grid, which is convex.
+// Oracle: the distance to a segment that crosses a flat grid, which is convex. Directions in single
+// precision.
 TEST(FastGeodesics, MeasureToAPolylineOnAFlatMesh) {
   const test::Surface surface = test::grid(12, 12);
   const ExactGeodesics exact(surface.mesh, surface.positions);
@@ -61,7 +63,7 @@ TEST(FastGeodesics, MeasureToAPolylineOnAFlatMesh) {
   for (const VertexId v : surface.mesh.vertices()) {
     const Vec3 p = surface.positions.row(v);
     const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-    EXPECT_NEAR(distances[v], (p - a - t * (b - a)).norm(), 1e-9) << int(v);
+    EXPECT_NEAR(distances[v], (p - a - t * (b - a)).norm(), 1e-7) << int(v);
   }
 }
 
@@ -89,10 +91,10 @@ TEST(AllPairs, AreSymmetricAndWhatTheSourcesGive) {
   for (const GeodesicMethod method : {GeodesicMethod::fast, GeodesicMethod::exact}) {
     const Eigen::MatrixXd d = all_pairs(surface.mesh, surface.positions, method);
     const std::vector<VertexId> sources{VertexId(4), VertexId(50)};
-    const Eigen::MatrixXd rows = geodesic_distances(surface.mesh, surface.positions, sources, method);
+    const Eigen::MatrixXd columns = geodesic_distances(surface.mesh, surface.positions, sources, method);
     EXPECT_EQ(d, d.transpose());
     EXPECT_EQ(d.diagonal().norm(), 0.0);
-    EXPECT_EQ(d(4, 50), 0.5 * (rows(0, 50) + rows(1, 4)));
+    EXPECT_EQ(d(4, 50), 0.5 * (columns(50, 0) + columns(4, 1)));
   }
 }
 
@@ -114,7 +116,7 @@ TEST(AllPairs, AreTheSameOnAnyNumberOfThreads) {
 }
 
 TEST(AllPairs, ReportProgressAndStopWhenAsked) {
-  const test::Surface surface = test::leaf(6);
+  const test::Surface surface = test::leaf(9);
   std::vector<double> fractions;
   Monitor monitor;
   monitor.progress = [&](std::string_view, double fraction) { fractions.push_back(fraction); };

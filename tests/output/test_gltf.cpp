@@ -46,7 +46,7 @@ std::string changed(const std::string& bytes, const std::function<void(Json&)>& 
   const std::string_view text = glb_json(bytes, "");
   Json document = Json::parse(text);
   change(document);
-  return join_glb(document.dump(), std::string_view(bytes).substr(20 + text.size() + 8));
+  return join_glb(document.dump(), bytes.substr(20 + text.size() + 8));
 }
 
 // Oracle: what was written, within float32: two roundings of half an eps, of the base and the difference.

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "venation/leaves.hpp"
+#include "wilt/geodesics/exact_geodesics.hpp"
 #include "wilt/leaf/species.hpp"
 #include "wilt/venation/venation.hpp"
 
@@ -55,6 +56,36 @@ TEST_P(EverySpecies, HasTheSameTipsWhenReadBack) {
   ASSERT_EQ(same.tips.size(), venation.tips.size());
   for (std::size_t i = 0; i < same.tips.size(); ++i)
     EXPECT_EQ(same.tips[i].vertex, number[venation.tips[i].vertex]);
+}
+
+// Differential: fast distances against exact ones, from sources all over the leaf. Band: what the method
+// promises.
+TEST_P(EverySpecies, HasNearExactFastDistances) {
+  const Leaf leaf = make_leaf(GetParam().species, 1000, 1);
+  const int n = leaf.mesh.num_vertices();
+  std::vector<VertexId> sources;
+  for (int v = 0; v < n; v += 50) sources.push_back(VertexId(v));
+  const auto by = [&](GeodesicMethod method) {
+    return geodesic_distances(leaf.mesh, leaf.positions, sources, method);
+  };
+  const Eigen::ArrayXXd exact = by(GeodesicMethod::exact), fast = by(GeodesicMethod::fast);
+  const Eigen::ArrayXXd error = (fast - exact).abs() / exact.max(1e-12);
+  EXPECT_LT(error.mean(), 2e-4);
+  EXPECT_LT(error.maxCoeff(), 0.04);
+}
+
+// Differential: primary veins, sought in bands, against exact paths sought everywhere.
+TEST_P(EverySpecies, HasTheShortestPrimaryVeins) {
+  for (const int vertices : {800, 3000}) {
+    const Leaf leaf = make_leaf(GetParam().species, vertices, 2);
+    const Venation venation = find_venation(leaf, {}, without_secondary());
+    std::vector<VertexId> tips;
+    for (const Tip& tip : venation.tips) tips.push_back(tip.vertex);
+    const auto paths = ExactGeodesics(leaf.mesh, leaf.positions).paths(leaf.petiole, tips);
+    for (std::size_t i = 0; i < tips.size(); ++i)
+      EXPECT_NEAR(venation.veins[i].path.length, paths[i].length, 1e-12 * paths[i].length)
+          << vertices << " " << i;
+  }
 }
 
 // Oracle: botany. A feather in a leaf with one midrib; lateral veins on each primary of a palmate leaf.

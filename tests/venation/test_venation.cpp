@@ -74,7 +74,9 @@ TEST(FindVenation, IsPlaneGeometryInAConvexFlatLeaf) {
 // Oracle: the definition of the parts in terms of each other.
 TEST(FindVenation, LeadsAPrimaryVeinFromThePetioleToEachTip) {
   const Leaf leaf = star_leaf(5);
-  const Venation venation = find_venation(leaf, kRule);
+  VenationOptions options;
+  options.geodesics = GeodesicMethod::exact;
+  const Venation venation = find_venation(leaf, kRule, options);
   for (std::size_t i = 0; i < venation.tips.size(); ++i) {
     const Vein& vein = venation.veins[i];
     EXPECT_EQ(vein.order, 1);

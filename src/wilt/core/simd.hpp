@@ -60,6 +60,9 @@ WILT_INLINE Point8 operator*(double s, const Point8& a) {
 WILT_INLINE Double8 dot(const Point8& a, const Point8& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+WILT_INLINE Point8 cross(const Point8& a, const Point8& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 
 /// A point of an array that is gathered from, x y z 0: one load each.
 struct alignas(32) Point4 {

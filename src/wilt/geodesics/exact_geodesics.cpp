@@ -84,20 +84,23 @@ Eigen::VectorXd ExactGeodesics::distances(VertexId source) const {
   return Eigen::Map<const Eigen::VectorXd>(sweep.distances().data(), mesh_.num_vertices());
 }
 
-std::vector<SurfacePath> ExactGeodesics::paths(VertexId source, const std::vector<VertexId>& targets) const {
+std::vector<SurfacePath> ExactGeodesics::paths(VertexId source, const std::vector<VertexId>& targets,
+                                               std::span<const char> within) const {
   detail::check_vertex(mesh_, source, "the source");
   for (const VertexId v : targets) detail::check_vertex(mesh_, v, "the target");
   std::vector<SurfacePath> result;
   if (targets.empty()) return result;
-  WindowPropagation sweep(mesh_, *unfolding_, source, true);
+  WindowPropagation sweep(mesh_, *unfolding_, source, true, within);
   sweep.run(targets);
   for (const VertexId target : targets) {
-    if (!std::isfinite(sweep.distances()[target]))
+    SurfacePath& path = result.emplace_back();
+    if (!std::isfinite(sweep.distances()[target])) {
+      if (!within.empty()) continue;
       throw Error(ErrorCode::input,
                   fmt::format("no path leads from vertex {} to vertex {}: they lie on separate parts of "
                               "the surface; join the parts or choose one",
                               int(source), int(target)));
-    SurfacePath& path = result.emplace_back();
+    }
     path.points = Backtrace(mesh_, *unfolding_, sweep).run(target, source);
     std::reverse(path.points.begin(), path.points.end());
     for (std::size_t i = 1; i < path.points.size(); ++i)

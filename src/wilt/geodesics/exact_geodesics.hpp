@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <span>
 
 #include "wilt/core/monitor.hpp"
 #include "wilt/geodesics/surface_path.hpp"
@@ -29,7 +30,11 @@ class ExactGeodesics {
 
   /// The shortest path from `source` to each target: a polyline through faces, straight when unfolded.
   /// A single point when the target is the source. Throws Error{input} when there is no path.
-  std::vector<SurfacePath> paths(VertexId source, const std::vector<VertexId>& targets) const;
+  ///
+  /// `within` (#V flags; empty: everywhere) bounds the search: paths go through faces that have a vertex
+  /// there, and a path is empty when there is none.
+  std::vector<SurfacePath> paths(VertexId source, const std::vector<VertexId>& targets,
+                                 std::span<const char> within = {}) const;
 
  private:
   const SurfaceMesh& mesh_;

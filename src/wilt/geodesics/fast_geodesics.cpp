@@ -16,17 +16,13 @@ namespace wilt {
 namespace {
 
 using detail::FastMarch;
-using detail::HalfedgeFrame;
-using detail::Unfolding;
+using detail::MarchFace;
+using detail::MarchSurface;
 
 // Sources between two looks at the monitor.
-constexpr int kBlock = 32;
-
-Eigen::VectorXd result_of(const SurfaceMesh& mesh, const FastMarch& march) {
-  Eigen::VectorXd result(mesh.num_vertices());
-  for (const VertexId v : mesh.vertices()) result[v] = march.distance(v);
-  return result;
-}
+constexpr int kBlock = 64;
+// Of the matrix; two tiles stay in the first cache.
+constexpr int kTile = 64;
 
 void check_point(const SurfaceMesh& mesh, const SurfacePoint& point) {
   const Vec3& w = point.barycentric;
@@ -46,29 +42,28 @@ std::array<HalfedgeId, 3> halfedges(const SurfaceMesh& mesh, FaceId f) {
 }
 
 // A point of the face of h in the frame of h.
-Vec2 in_frame(const SurfaceMesh& mesh, const Unfolding& unfolding, HalfedgeId h, const SurfacePoint& point) {
-  const HalfedgeFrame& frame = unfolding.frame(h);
-  const int k = h - mesh.halfedge(point.face);
-  return point.barycentric[(k + 1) % 3] * Vec2(frame.length, 0.0) +
-         point.barycentric[(k + 2) % 3] * frame.apex;
+Vec2 in_frame(const MarchSurface& surface, HalfedgeId h, const SurfacePoint& point) {
+  const MarchFace& face = surface.face(h);
+  const int k = h - surface.mesh().halfedge(point.face);
+  return point.barycentric[(k + 1) % 3] * Vec2(surface.edge(h).length, 0.0) +
+         point.barycentric[(k + 2) % 3] * Vec2(face.apex_x, face.apex_y);
 }
 
 // Seeds the corners of a face with the segment a b in it.
-void seed_segment(const SurfaceMesh& mesh, const Unfolding& unfolding, const SurfacePoint& a,
-                  const SurfacePoint& b, FastMarch& march) {
-  for (const HalfedgeId h : halfedges(mesh, a.face)) {
+void seed_segment(const MarchSurface& surface, const SurfacePoint& a, const SurfacePoint& b,
+                  FastMarch& march) {
+  for (const HalfedgeId h : halfedges(surface.mesh(), a.face)) {
     // In the frame of h its first vertex is the origin; the face lies counter-clockwise from h.
-    const Vec2 p = in_frame(mesh, unfolding, h, a), q = in_frame(mesh, unfolding, h, b);
+    const Vec2 p = in_frame(surface, h, a), q = in_frame(surface, h, b);
     const double squared = (q - p).squaredNorm();
     const double t = squared > 0.0 ? std::clamp(-p.dot(q - p) / squared, 0.0, 1.0) : 0.0;
     const Vec2 nearest = p + t * (q - p);
-    march.add_curve_point(mesh.from(h), nearest.norm(),
-                          unfolding.angle(h) - std::atan2(nearest.y(), nearest.x()));
+    march.add_curve_point(h, nearest);
   }
 }
 
-void seed_path(const SurfaceMesh& mesh, const Unfolding& unfolding, const SurfacePath& path,
-               FastMarch& march) {
+void seed_path(const MarchSurface& surface, const SurfacePath& path, FastMarch& march) {
+  const SurfaceMesh& mesh = surface.mesh();
   for (const SurfacePoint& point : path.points) check_point(mesh, point);
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     const SurfacePoint& a = path.points[i];
@@ -77,7 +72,7 @@ void seed_path(const SurfaceMesh& mesh, const Unfolding& unfolding, const Surfac
     for (const FaceId f : faces_at(mesh, a)) {
       if (!lies_in(mesh, b, f)) continue;
       together = true;
-      seed_segment(mesh, unfolding, in_face(mesh, a, f), in_face(mesh, b, f), march);
+      seed_segment(surface, in_face(mesh, a, f), in_face(mesh, b, f), march);
     }
     if (!together)
       throw Error(ErrorCode::input,
@@ -87,66 +82,83 @@ void seed_path(const SurfaceMesh& mesh, const Unfolding& unfolding, const Surfac
   }
 }
 
-// Calls row(i) for all sources in blocks, in parallel within a block; the monitor is asked between blocks.
-void for_sources(int count, const Monitor& monitor, const std::function<void(int)>& row) {
+// Averages the matrix with its transpose, tile by tile.
+void make_symmetric(Eigen::MatrixXd& matrix) {
+  const int n = static_cast<int>(matrix.rows()), tiles = (n + kTile - 1) / kTile;
+  parallel_for(tiles, 1, [&](int begin, int end) {
+    for (int i = begin * kTile; i < std::min(n, end * kTile); i += kTile) {
+      for (int j = i; j < n; j += kTile) {
+        const int rows = std::min(kTile, n - j), columns = std::min(kTile, n - i);
+        const Eigen::MatrixXd mean =
+            0.5 * (matrix.block(j, i, rows, columns) + matrix.block(i, j, columns, rows).transpose());
+        matrix.block(j, i, rows, columns) = mean;
+        matrix.block(i, j, columns, rows) = mean.transpose();
+      }
+    }
+  });
+}
+
+// Calls rows(first, last) for all sources in blocks, in parallel within a block; the monitor is asked between
+// blocks.
+void for_sources(int count, const Monitor& monitor, const std::function<void(int, int)>& rows) {
   for (int begin = 0; begin < count; begin += kBlock) {
     monitor.throw_if_cancelled();
     monitor.report("geodesics", static_cast<double>(begin) / count);
-    parallel_for(std::min(kBlock, count - begin), 1, [&](int first, int last) {
-      for (int i = first; i < last; ++i) row(begin + i);
-    });
+    const int size = std::min(kBlock, count - begin);
+    parallel_for(size, 1, [&](int first, int last) { rows(begin + first, begin + last); });
   }
   monitor.report("geodesics", 1.0);
-}
-
-// Distances from a vertex to all, by the method.
-std::function<Eigen::VectorXd(VertexId)> solver(const SurfaceMesh& mesh, const Points3& positions,
-                                                GeodesicMethod method) {
-  if (method == GeodesicMethod::exact)
-    return [geodesics = ExactGeodesics(mesh, positions)](VertexId v) { return geodesics.distances(v); };
-  return [geodesics = FastGeodesics(mesh, positions)](VertexId v) { return geodesics.distances(v); };
 }
 
 }  // namespace
 
 FastGeodesics::FastGeodesics(const SurfaceMesh& mesh, const Points3& positions)
-    : mesh_(mesh), positions_(positions), unfolding_(std::make_shared<const Unfolding>(mesh, positions)) {}
+    : mesh_(mesh), surface_(std::make_shared<const MarchSurface>(mesh, detail::Unfolding(mesh, positions))) {}
 
 Eigen::VectorXd FastGeodesics::distances(VertexId source) const {
-  detail::check_vertex(mesh_, source, "the source");
-  FastMarch march(mesh_, *unfolding_);
-  march.add_source(source);
-  march.run();
-  return result_of(mesh_, march);
+  return distances(std::span<const VertexId>(&source, 1));
+}
+
+Eigen::MatrixXd FastGeodesics::distances(std::span<const VertexId> sources, const Monitor& monitor) const {
+  for (const VertexId v : sources) detail::check_vertex(mesh_, v, "the source");
+  Eigen::MatrixXd result(mesh_.num_vertices(), sources.size());
+  for_sources(static_cast<int>(sources.size()), monitor, [&](int first, int last) {
+    FastMarch march(*surface_);
+    for (int i = first; i < last; ++i) {
+      march.add_source(sources[i]);
+      march.run(result.col(i).data());
+    }
+  });
+  return result;
 }
 
 Eigen::VectorXd FastGeodesics::distances(std::span<const SurfacePath> sources) const {
-  FastMarch march(mesh_, *unfolding_);
-  for (const SurfacePath& path : sources) seed_path(mesh_, *unfolding_, path, march);
-  march.run();
-  return result_of(mesh_, march);
+  FastMarch march(*surface_);
+  for (const SurfacePath& path : sources) seed_path(*surface_, path, march);
+  Eigen::VectorXd result(mesh_.num_vertices());
+  march.run(result.data());
+  return result;
 }
 
 Eigen::MatrixXd geodesic_distances(const SurfaceMesh& mesh, const Points3& positions,
                                    std::span<const VertexId> sources, GeodesicMethod method,
                                    const Monitor& monitor) {
+  if (method == GeodesicMethod::fast) return FastGeodesics(mesh, positions).distances(sources, monitor);
+  const ExactGeodesics exact(mesh, positions);
   for (const VertexId v : sources) detail::check_vertex(mesh, v, "the source");
-  const auto solve = solver(mesh, positions, method);
-  Eigen::MatrixXd result(sources.size(), mesh.num_vertices());
-  for_sources(static_cast<int>(sources.size()), monitor,
-              [&](int i) { result.row(i) = solve(sources[i]).transpose(); });
+  Eigen::MatrixXd result(mesh.num_vertices(), sources.size());
+  for_sources(static_cast<int>(sources.size()), monitor, [&](int first, int last) {
+    for (int i = first; i < last; ++i) result.col(i) = exact.distances(sources[i]);
+  });
   return result;
 }
 
 Eigen::MatrixXd all_pairs(const SurfaceMesh& mesh, const Points3& positions, GeodesicMethod method,
                           const Monitor& monitor) {
-  const auto solve = solver(mesh, positions, method);
-  const int n = mesh.num_vertices();
-  Eigen::MatrixXd result(n, n);
-  for_sources(n, monitor, [&](int i) { result.col(i) = solve(VertexId(i)); });
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < i; ++j) result(i, j) = result(j, i) = 0.5 * (result(i, j) + result(j, i));
-  }
+  std::vector<VertexId> all;
+  for (const VertexId v : mesh.vertices()) all.push_back(v);
+  Eigen::MatrixXd result = geodesic_distances(mesh, positions, all, method, monitor);
+  make_symmetric(result);
   return result;
 }
 

@@ -1,207 +1,95 @@
 #include "wilt/geodesics/fast_march.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace wilt::detail {
 namespace {
 
-// The root of vertices that are reached straight from a curve.
-constexpr int kCurve = -2;
-// A path along an edge that bends less than this at its vertex, radians, keeps its root: the gaps that
-// curvature leaves between neighbouring faces are no shadows.
+// Buckets of the queue to a mean edge length. Within a bucket there is no order: a vertex that comes too
+// early is swept again.
+constexpr double kBuckets = 8.0;
+// A path along an edge that bends at its vertex by less than this (sine) keeps its root: the gaps that
+// curvature leaves between neighbouring faces are no shadows. On the margin there are none.
 constexpr double kBend = 0.05;
-// A ray may miss the edge by this much of its length; the error is of second order in the miss.
-constexpr double kMiss = 1e-6;
-// A front's curvature may differ from a flat surface's by this factor: more is noise of a rough surface.
-constexpr double kFocus = 10.0;
-// The largest squared distance of two neighbours' nearest points on one curve, in squared edge lengths.
-constexpr double kPiece = 1.2;
-// A finished vertex is opened again only when its distance falls below this much of it: beyond an obtuse
-// corner the straight path may come later than one along an edge.
-constexpr double kGain = 1.0 - 1e-9;
+constexpr double kBendOnMargin = 1e-6;
 
 }  // namespace
 
-FastMarch::FastMarch(const SurfaceMesh& mesh, const Unfolding& unfolding)
-    : mesh_(mesh), unfolding_(unfolding), states_(mesh.num_vertices()) {}
+FastMarch::FastMarch(const MarchSurface& surface)
+    : surface_(surface),
+      buckets_per_length_(kBuckets / surface.mean_length()),
+      fronts_(surface.mesh().num_vertices()) {}
 
 void FastMarch::add_source(VertexId v) {
-  State state;
-  state.distance = 0.0;
-  state.root = v;
-  push(v, state);
+  fronts_[v] = {0.0, 0.0, 0.0F, 0.0F, v};
+  push(v);
 }
 
-void FastMarch::add_curve_point(VertexId v, double distance, double angle) {
-  if (!(distance < states_[v].distance)) return;
-  State state;
-  state.distance = distance;
-  state.angle = angle;
-  state.root = kCurve;
-  push(v, state);
+void FastMarch::add_curve_point(HalfedgeId h, const Vec2& offset) {
+  const VertexId v = surface_.mesh().from(h);
+  const MarchEdge& axis = surface_.edge(h);
+  const double distance = offset.norm();
+  const Vec2 t = distance > 0.0 ? Vec2(offset / distance) : Vec2(Vec2::Zero());
+  const float x = static_cast<float>(axis.x * t.x() - axis.y * t.y());
+  const float y = static_cast<float>(axis.x * t.y() + axis.y * t.x());
+  if (take(fronts_[v], {distance, distance, x, y, kCurve})) push(v);
 }
 
-void FastMarch::run() {
-  const auto later = [](const Entry& a, const Entry& b) {
-    return a.distance != b.distance ? a.distance > b.distance : a.vertex > b.vertex;
-  };
-  while (!heap_.empty()) {
-    std::pop_heap(heap_.begin(), heap_.end(), later);
-    const VertexId v = heap_.back().vertex;
-    heap_.pop_back();
-    State& state = states_[v];
-    if (state.finished) continue;
-    state.finished = true;
-    if (state.halfedge.valid()) state.angle = arrival_angle(v);
-    sweep(v);
+void FastMarch::run(double* distances) {
+  for (current_ = 0; current_ < static_cast<int>(buckets_.size()); ++current_) {
+    while (buckets_[current_] >= 0) {
+      const Entry entry = entries_[buckets_[current_]];
+      buckets_[current_] = entry.next;
+      Front& front = fronts_[entry.vertex];
+      if (front.final) continue;
+      front.final = true;
+      sweep(VertexId(entry.vertex));
+    }
+  }
+  current_ = 0;
+  buckets_.clear();
+  entries_.clear();
+  for (std::size_t v = 0; v < fronts_.size(); ++v) {
+    distances[v] = fronts_[v].distance;
+    fronts_[v] = Front();
   }
 }
 
-void FastMarch::push(VertexId v, const State& state) {
-  states_[v] = state;
-  heap_.push_back({state.distance, v});
-  std::push_heap(heap_.begin(), heap_.end(), [](const Entry& a, const Entry& b) {
-    return a.distance != b.distance ? a.distance > b.distance : a.vertex > b.vertex;
-  });
-}
-
-double FastMarch::arrival_angle(VertexId v) const {
-  const State& state = states_[v];
-  const HalfedgeFrame& frame = unfolding_.frame(state.halfedge);
-  const Vec2 ray = state.image - frame.apex;
-  const Vec2& axis = frame.right;
-  const double turn = std::atan2(axis.y() * ray.x() - axis.x() * ray.y(), axis.dot(ray));
-  return unfolding_.angle(mesh_.twin(mesh_.next(state.halfedge))) + turn;
+void FastMarch::push(VertexId v) {
+  const int index = std::max(current_, static_cast<int>(fronts_[v].distance * buckets_per_length_));
+  if (index >= static_cast<int>(buckets_.size())) buckets_.resize(index + 1, -1);
+  entries_.push_back({v, buckets_[index]});
+  buckets_[index] = static_cast<int>(entries_.size()) - 1;
 }
 
 void FastMarch::sweep(VertexId u) {
-  mesh_.for_outgoing(u, [&](HalfedgeId h) {
-    along_edge(h);
-    if (mesh_.is_boundary(h)) return;
+  const SurfaceMesh& mesh = surface_.mesh();
+  const double bend = mesh.is_boundary(u) ? kBendOnMargin : kBend;
+  mesh.for_outgoing(u, [&](HalfedgeId h) {
+    const VertexId v = mesh.to(h);
+    if (along_edge(fronts_[u], u, bend, surface_.edge(h), surface_.edge(mesh.twin(h)), fronts_[v])) push(v);
+    if (mesh.is_boundary(h)) return;
     // face(h) = (u, a, b): b across the edge u a, and a across the edge b u.
     across(h);
-    across(mesh_.prev(h));
+    across(mesh.prev(h));
   });
 }
 
-// By how much the path to u and on along `out` bends at u, radians; 0 at a source.
-double FastMarch::bend(VertexId u, HalfedgeId out) const {
-  const State& state = states_[u];
-  if (state.distance - state.offset <= kMiss * unfolding_.length(out)) return 0.0;
-  double turn = std::abs(unfolding_.angle(out) - state.angle);
-  if (!mesh_.is_boundary(u)) turn = std::min(turn, unfolding_.total_angle(u) - turn);
-  return std::abs(std::numbers::pi - turn);
-}
-
-void FastMarch::along_edge(HalfedgeId h) {
-  const VertexId u = mesh_.from(h), v = mesh_.to(h);
-  const State& from = states_[u];
-  const double distance = from.distance + unfolding_.length(h);
-  if (!(distance < kGain * states_[v].distance)) return;
-  State state;
-  state.distance = distance;
-  const bool straight = bend(u, h) < (mesh_.is_boundary(u) ? kMiss : kBend);
-  state.root = straight ? from.root : int(u);
-  state.offset = straight ? from.offset : from.distance;
-  state.angle = unfolding_.angle(mesh_.twin(h));
-  push(v, state);
-}
-
-// The vertex opposite h from the two vertices of h, of which one has just been finished.
+// The vertex opposite h from the two vertices of h, of which one has just become final.
 void FastMarch::across(HalfedgeId h) {
-  const VertexId u = mesh_.from(h), w = mesh_.to(h);
-  const State &a = states_[u], &b = states_[w];
-  if (!a.finished || !b.finished) return;
-  if (a.root == kCurve && b.root == kCurve) return curve(h);
-  if (a.root != b.root) return two_roots(h);
-  const double length = unfolding_.length(h), gap = a.distance - b.distance;
-  if (a.distance == a.offset) return through(h, Vec2(0.0, 0.0), a.distance, u);
-  if (b.distance == b.offset) return through(h, Vec2(length, 0.0), b.distance, w);
-  // The front's centre: it fits both distances, and its rays turn from one end to the other as much as the
-  // directions do: slope_b - slope_a = (length^2 - gap^2) (1/ra + 1/rb) / (2 length), solved for ra.
-  const double slope_a = -std::cos(a.angle - unfolding_.angle(h));
-  const double slope_b = std::cos(unfolding_.angle(mesh_.twin(h)) - b.angle);
-  const double flat = 1.0 / (a.distance - a.offset) + 1.0 / (b.distance - b.offset);
-  const double curvatures = std::clamp(2.0 * length * (slope_b - slope_a) / (length * length - gap * gap),
-                                       flat / kFocus, flat * kFocus);
-  const double product = curvatures * gap;
-  const double ra = (product + 2.0 + std::sqrt(product * product + 4.0)) / (2.0 * curvatures);
-  const double x = 0.5 * length - gap * gap / (2.0 * length) + ra * gap / length;
-  through(h, {x, -std::sqrt(std::max(0.0, (ra - x) * (ra + x)))}, a.distance - ra, u);
-}
-
-// Offers the vertex opposite h the straight path from `image`, itself at distance `offset`, if it crosses h;
-// its root is that of `like`.
-void FastMarch::through(HalfedgeId h, const Vec2& image, double offset, VertexId like) {
-  const HalfedgeFrame& frame = unfolding_.frame(h);
-  if (image.y() > 0.0) return;
-  const double crossing = meet_axis(image, frame.apex), miss = kMiss * frame.length;
-  if (!(crossing >= -miss && crossing <= frame.length + miss)) return;
-  State state;
-  state.distance = offset + (frame.apex - image).norm();
-  const VertexId v = mesh_.to(mesh_.next(h));
-  if (!(state.distance < kGain * states_[v].distance)) return;
-  state.offset = states_[like].offset;
-  state.root = states_[like].root;
-  state.image = image;
-  state.halfedge = h;
-  push(v, state);
-}
-
-// The image of the root of from(h), below h.
-Vec2 FastMarch::image_at_start(HalfedgeId h) const {
-  const VertexId u = mesh_.from(h);
-  const State& state = states_[u];
-  double turn = state.angle - unfolding_.angle(h);
-  if (turn < 0.0 && !mesh_.is_boundary(u)) turn += unfolding_.total_angle(u);
-  const double r = state.distance - state.offset;
-  return {r * std::cos(turn), -r * std::sin(turn)};
-}
-
-// The image of the root of to(h), below h.
-Vec2 FastMarch::image_at_end(HalfedgeId h) const {
-  const VertexId w = mesh_.to(h);
-  const State& state = states_[w];
-  double turn = unfolding_.angle(mesh_.twin(h)) - state.angle;
-  if (turn < 0.0 && !mesh_.is_boundary(w)) turn += unfolding_.total_angle(w);
-  const double r = state.distance - state.offset;
-  return {unfolding_.length(h) - r * std::cos(turn), -r * std::sin(turn)};
-}
-
-void FastMarch::two_roots(HalfedgeId h) {
-  const VertexId u = mesh_.from(h), w = mesh_.to(h);
-  const Vec2 at_u = image_at_start(h), at_w = image_at_end(h);
-  const Vec2& apex = unfolding_.frame(h).apex;
-  const auto side = [](const Vec2& a, const Vec2& b, const Vec2& p) {
-    return (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
-  };
-  // Where a root would reach the other end sooner than its distance, that end lies in its shadow, and the
-  // line through both images bounds the shadow. The start of h is on the left of a ray that crosses h
-  // upwards.
-  const double length = unfolding_.length(h);
-  const double u_at_w = states_[u].offset + (at_u - Vec2(length, 0.0)).norm();
-  const double w_at_u = states_[w].offset + at_w.norm();
-  const bool sees_u = u_at_w >= states_[w].distance || side(at_u, at_w, apex) > 0.0;
-  const bool sees_w = w_at_u >= states_[u].distance || side(at_w, at_u, apex) < 0.0;
-  if (sees_u) through(h, at_u, states_[u].offset, u);
-  if (sees_w) through(h, at_w, states_[w].offset, w);
-}
-
-// The nearest point of the straight piece of curve between the nearest points of both ends of h. These are no
-// farther apart than the ends, unless they belong to two curves or to two sides of a bend.
-void FastMarch::curve(HalfedgeId h) {
-  const Vec2 a = image_at_start(h), b = image_at_end(h);
-  const HalfedgeFrame& frame = unfolding_.frame(h);
-  const double squared = (b - a).squaredNorm();
-  if (squared > kPiece * frame.length * frame.length) {
-    through(h, a, 0.0, mesh_.from(h));
-    through(h, b, 0.0, mesh_.to(h));
-    return;
-  }
-  const double t = squared > 0.0 ? std::clamp((frame.apex - a).dot(b - a) / squared, 0.0, 1.0) : 0.0;
-  through(h, a + t * (b - a), 0.0, mesh_.from(h));
+  const SurfaceMesh& mesh = surface_.mesh();
+  const HalfedgeId back = mesh.twin(h);
+  const Front &a = fronts_[mesh.from(h)], &b = fronts_[mesh.from(back)];
+  if (!a.final || !b.final) return;
+  const VertexId v = mesh.from(mesh.prev(h));
+  Front& apex = fronts_[v];
+  const MarchFace& face = surface_.face(h);
+  const MarchEdge& edge = surface_.edge(h);
+  // Only beyond an obtuse corner does a front come to an apex before it comes to both ends of the edge.
+  const bool obtuse = face.apex_x * (edge.length - face.apex_x) > face.apex_y * face.apex_y;
+  const double latest = obtuse ? std::min(a.distance, b.distance) : std::max(a.distance, b.distance);
+  if (apex.distance <= latest) return;
+  if (across_face(a, b, face, edge, surface_.edge(back), apex)) push(v);
 }
 
 }  // namespace wilt::detail

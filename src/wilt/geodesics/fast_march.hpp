@@ -1,64 +1,47 @@
-// A front that carries the unfolded image of its source over a surface. Internal to the room.
+// A front that runs over a surface from a vertex or a curve. Internal to the room.
 #pragma once
 
-#include <limits>
 #include <vector>
 
-#include "wilt/geodesics/unfolding.hpp"
+#include "wilt/geodesics/front.hpp"
 
 namespace wilt::detail {
 
-/// Near-exact distances, one face at a time, in Dijkstra's order.
+/// Near-exact distances, one face at a time, nearest vertices first.
 ///
-/// Every vertex knows its root, the last vertex where its path bends, the root's own distance (offset) and
-/// the direction in which it lies. A face with two finished vertices of one root finishes the third from the
-/// front's centre in the plane, found by their distances and directions (after Novotni and Klein 2002, who
-/// use the distances alone); with two roots, the line through both images tells which of them the third
-/// vertex sees. Exact on flat convex surfaces.
+/// Every vertex knows its root, the last vertex where its path bends, how far that is and the direction in
+/// which the path comes. A face with two final vertices of one root reaches the third from the front's centre
+/// in the plane, found by their distances and directions (after Novotni and Klein 2002, who use the distances
+/// alone); with two roots, the line through both images tells which of them the third vertex sees. Exact on
+/// flat convex surfaces, but for directions in single precision. Keeps its memory from one run to the next.
+/// Keeps a reference to the surface.
 class FastMarch {
  public:
-  FastMarch(const SurfaceMesh& mesh, const Unfolding& unfolding);
+  explicit FastMarch(const MarchSurface& surface);
 
   void add_source(VertexId v);
 
-  /// A vertex whose nearest point of a curve lies at `distance` in direction `angle` (Unfolding::angle).
-  void add_curve_point(VertexId v, double distance, double angle);
+  /// from(h) has its nearest point of a curve at `offset` from it, in the frame of h.
+  void add_curve_point(HalfedgeId h, const Vec2& offset);
 
-  void run();
-
-  double distance(VertexId v) const { return states_[v].distance; }
+  /// Writes the distance of every vertex, #V, and forgets the sources.
+  void run(double* distances);
 
  private:
-  struct State {
-    double distance = std::numeric_limits<double>::infinity();
-    double offset = 0.0;  // the root's own distance
-    double angle = 0.0;   // the direction of the root's image, once finished
-    Vec2 image = Vec2::Zero();
-    HalfedgeId halfedge;  // opposite the vertex, of the face that it was reached through: the image's frame
-    int root = -1;
-    bool finished = false;
-  };
   struct Entry {
-    double distance;
-    VertexId vertex;
+    int vertex, next;
   };
 
-  double bend(VertexId u, HalfedgeId out) const;
-  double arrival_angle(VertexId v) const;
-  Vec2 image_at_start(HalfedgeId h) const;
-  Vec2 image_at_end(HalfedgeId h) const;
+  void push(VertexId v);
   void sweep(VertexId u);
-  void along_edge(HalfedgeId h);
   void across(HalfedgeId h);
-  void through(HalfedgeId h, const Vec2& image, double offset, VertexId like);
-  void two_roots(HalfedgeId h);
-  void curve(HalfedgeId h);
-  void push(VertexId v, const State& state);
 
-  const SurfaceMesh& mesh_;
-  const Unfolding& unfolding_;
-  std::vector<State> states_;
-  std::vector<Entry> heap_;
+  const MarchSurface& surface_;
+  double buckets_per_length_;
+  std::vector<Front> fronts_;
+  std::vector<int> buckets_;    // the first entry of each, or -1
+  std::vector<Entry> entries_;  // lists
+  int current_ = 0;
 };
 
 }  // namespace wilt::detail

@@ -9,15 +9,15 @@
 #include <limits>
 
 #include "wilt/core/error.hpp"
-#include "wilt/mesh/geometry.hpp"
 
 namespace wilt {
 namespace {
 
 // A barycentric coordinate below this is 0: the point lies on the edge.
 constexpr double kOnEdge = 1e-12;
-// Steps of a path that turns, in mean edge lengths.
+// Steps of a path that turns: in edge lengths of the face, and, where these are tiny, of its longest length.
 constexpr double kStep = 0.1;
+constexpr double kSmallStep = 1.0 / 500.0;
 
 // The face's orthonormal frame and the change of the barycentric coordinates along it.
 struct FacePlane {
@@ -75,6 +75,12 @@ class Walker {
   void turn_left(double angle) {
     const double c = std::cos(angle), s = std::sin(angle);
     heading_ = Vec2(c * heading_.x() - s * heading_.y(), s * heading_.x() + c * heading_.y());
+  }
+
+  /// The mean of the face's.
+  double edge_length() const {
+    const auto& [a, b, c] = plane_.corners;
+    return ((b - a).norm() + (c - b).norm() + (a - c).norm()) / 3.0;
   }
 
   /// How far it is to the side ahead, and which one.
@@ -183,10 +189,11 @@ SurfacePath trace_straight(const SurfaceMesh& mesh, const Points3& positions, co
   check_arguments(mesh, positions, start, max_length);
   Walker walker = walker_at(mesh, positions, start, direction);
   SurfacePath path{{start}, 0.0};
-  const double longest = turn ? kStep * mean_edge_length(mesh, positions) : max_length;
   // A path that circles a vertex at no distance would never end.
   int idle = 0;
   while (path.length < max_length && idle < 3 * mesh.num_faces()) {
+    const double longest =
+        turn ? std::max(kStep * walker.edge_length(), kSmallStep * max_length) : max_length;
     double step = std::min(longest, max_length - path.length);
     // A turning step ends at the side ahead, or the side would cut its middle off.
     int side = -1;

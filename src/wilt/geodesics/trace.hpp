@@ -13,7 +13,8 @@ namespace wilt {
 ///
 /// Polthier and Schmies 1998: straight inside a face and across an edge; a vertex is passed on the side of
 /// the face that the path would enter. A start on an edge or a vertex begins in the face around it into
-/// which the direction points. With `turn`, steps are at most a tenth of the mean edge length. `stop` is
+/// which the direction points. With `turn`, steps are at most a tenth of the face's mean edge length, or
+/// 1/500 of `max_length` where that is more. `stop` is
 /// asked at every point after the first; the point at which it says so is the last. At the margin the path
 /// ends, and holds the start alone when it begins there and points outwards.
 ///

@@ -31,11 +31,12 @@ double norm(double x, double y) {
 }  // namespace
 
 WindowPropagation::WindowPropagation(const SurfaceMesh& mesh, const Unfolding& unfolding, VertexId source,
-                                     bool keep_history)
+                                     bool keep_history, std::span<const char> within)
     : mesh_(mesh),
       unfolding_(unfolding),
       source_(source),
       keep_history_(keep_history),
+      within_(within),
       bucket_width_(kBucket * unfolding.mean_length()),
       distances_(mesh.num_vertices(), std::numeric_limits<double>::infinity()),
       swept_(mesh.num_vertices(), std::numeric_limits<double>::infinity()),
@@ -72,8 +73,19 @@ WindowPropagation::Bucket& WindowPropagation::bucket(double key) {
   return buckets_[index];
 }
 
+// Whether the window has a width, a source behind it and a face before it that may be entered.
+bool WindowPropagation::leads_on(const Window& window) const {
+  const HalfedgeId h = window.halfedge;
+  return window.end > window.begin && window.source.y() < 0.0 &&
+         (is_within(mesh_.from(h)) || is_within(mesh_.to(h)) || is_within(mesh_.to(mesh_.next(h))));
+}
+
+int WindowPropagation::record(const Window& window) {
+  history_.push_back(window);
+  return static_cast<int>(history_.size()) - 1;
+}
+
 void WindowPropagation::push(const Window& window) {
-  if (!(window.end > window.begin) || !(window.source.y() < 0.0)) return;
   const double nearest = std::clamp(window.source.x(), window.begin, window.end);
   bucket(window.offset + norm(nearest - window.source.x(), window.source.y())).windows.push_back(window);
 }
@@ -88,6 +100,7 @@ void WindowPropagation::sweep_vertex(VertexId v) {
   if (!(distances_[v] < swept_[v])) return;
   swept_[v] = distances_[v];
   mesh_.for_outgoing(v, [&](HalfedgeId h) {
+    if (!is_within(mesh_.to(h))) return;
     const double distance = distances_[v] + unfolding_.length(h);
     if (clearly_less(distance, distances_[mesh_.to(h)])) arrive(mesh_.to(h), distance, {-1, h});
   });
@@ -136,7 +149,8 @@ void WindowPropagation::emit(VertexId v, double from_angle, double to_angle) {
     };
     const double begin = from_angle <= start ? 0.0 : at(from_angle - start);
     const double end = to_angle >= start + corner ? frame.length : at(to_angle - start);
-    push({begin, end, source, distances_[v], across, -1, false});
+    const Window window{begin, end, source, distances_[v], across, -1, false};
+    if (leads_on(window)) push(window);
   });
 }
 
@@ -178,16 +192,20 @@ void WindowPropagation::sweep_window(const Window& window) {
   }
   const VertexId apex = mesh_.to(mesh_.next(window.halfedge));
   const bool arrives = seen && clearly_less(distance, distances_[apex]);
-  if (keep_history_ || arrives) history_.push_back(window);
-  if (arrives) arrive(apex, distance, {static_cast<int>(history_.size()) - 1, HalfedgeId()});
-  split(window, crossing, left_end, right_begin);
+  int recorded = -1;
+  if (arrives) {
+    recorded = record(window);
+    arrive(apex, distance, {recorded, HalfedgeId()});
+  }
+  split(window, crossing, left_end, right_begin, recorded);
 }
 
 // Hands [begin, left_end] and [right_begin, end] on through the left and the right edge of the face.
-void WindowPropagation::split(const Window& window, double crossing, double left_end, double right_begin) {
+// `recorded` is the window's place in the history, or -1.
+void WindowPropagation::split(const Window& window, double crossing, double left_end, double right_begin,
+                              int recorded) {
   const HalfedgeId h = window.halfedge;
   const HalfedgeFrame& frame = unfolding_.frame(h);
-  const int parent = keep_history_ ? static_cast<int>(history_.size()) - 1 : 0;
   const auto child = [&](HalfedgeId across, const Vec2& origin, const Vec2& axis, double begin, double end,
                          bool left) {
     if (mesh_.is_boundary(across) || !(end > begin)) return;
@@ -198,7 +216,10 @@ void WindowPropagation::split(const Window& window, double crossing, double left
     };
     const double from = !left && begin == crossing ? 0.0 : at(begin);
     const double to = left && end == crossing ? length : at(end);
-    push({from, to, source, window.offset, across, parent, left});
+    Window next{from, to, source, window.offset, across, 0, left};
+    if (!leads_on(next)) return;
+    if (keep_history_) next.parent = recorded = recorded < 0 ? record(window) : recorded;
+    push(next);
   };
   child(mesh_.twin(mesh_.prev(h)), Vec2::Zero(), frame.left, window.begin, left_end, true);
   child(mesh_.twin(mesh_.next(h)), frame.apex, frame.right, right_begin, window.end, false);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "wilt/geodesics/unfolding.hpp"
@@ -31,7 +32,9 @@ struct Arrival {
 /// Pruning asks for a clear loss: in a tie both windows stay, which costs time and never a path.
 class WindowPropagation {
  public:
-  WindowPropagation(const SurfaceMesh& mesh, const Unfolding& unfolding, VertexId source, bool keep_history);
+  /// `within` (#V flags; empty: everywhere) must outlive it; windows enter faces that have a vertex there.
+  WindowPropagation(const SurfaceMesh& mesh, const Unfolding& unfolding, VertexId source, bool keep_history,
+                    std::span<const char> within = {});
 
   /// Sweeps the whole component of the source, or until the distance to every target is final.
   void run(const std::vector<VertexId>& targets = {});
@@ -52,20 +55,24 @@ class WindowPropagation {
     double crossing = 0.0;
   };
 
+  bool is_within(VertexId v) const { return within_.empty() || within_[v]; }
   Bucket& bucket(double key);
+  bool leads_on(const Window& window) const;
   void push(const Window& window);
+  int record(const Window& window);
   void arrive(VertexId v, double distance, const Arrival& arrival);
   void sweep_vertex(VertexId v);
   void emit(VertexId v, double from_angle, double to_angle);
   double arrival_angle(VertexId v) const;
   bool is_useless(const Window& window) const;
   void sweep_window(const Window& window);
-  void split(const Window& window, double crossing, double left_end, double right_begin);
+  void split(const Window& window, double crossing, double left_end, double right_begin, int recorded);
 
   const SurfaceMesh& mesh_;
   const Unfolding& unfolding_;
   VertexId source_;
   bool keep_history_;
+  std::span<const char> within_;
   double bucket_width_;
   std::size_t current_ = 0;
   std::vector<Bucket> buckets_;

@@ -6,16 +6,22 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "wilt/core/error.hpp"
+#include "wilt/core/parallel.hpp"
 #include "wilt/mechanics/argument_checks.hpp"
 
 namespace wilt {
 namespace {
 
 using Eigen::Matrix3d;
+using simd::kLanes;
+
+constexpr int kGroups = 128;            // of eight faces per parallel task
+constexpr double kMargin = 1.0 + 1e-9;  // of the first look, whose round-off is another
 
 struct Triangle {
   std::array<Vec3, 3> opposite;  // c_i
@@ -58,6 +64,20 @@ struct Barrier {
   }
 };
 
+// Whether a face of the group may have |N|^2 below its least one.
+WILT_CLONES void find_squeezed(const double* x, const int* corners, const Number8* least, int begin, int end,
+                               char* found) {
+  for (int g = begin; g < end; ++g) {
+    const int* of_group = corners + 3 * kLanes * g;
+    const Point8 origin = simd::gather(x, of_group);
+    const Point8 a = simd::gather(x, of_group + kLanes) - origin;
+    const Point8 b = simd::gather(x, of_group + 2 * kLanes) - origin;
+    const Point8 normal = cross(a, b);
+    const auto sound = dot(normal, normal) >= least[g].lanes;
+    found[g] = simd::sum(sound ? Double8{} : Double8{} + 1.0) > 0.0;
+  }
+}
+
 }  // namespace
 
 AreaLimit::AreaLimit(const Faces& faces, const Points3& rest, const Eigen::VectorXd& stiffness,
@@ -71,34 +91,57 @@ AreaLimit::AreaLimit(const Faces& faces, const Points3& rest, const Eigen::Vecto
   detail::require_values("the limiting stiffness of face", stiffness, 0.0, false);
   for (int f = 0; f < element_count(); ++f) rest_areas_[f] = Triangle(rest, vertices(f)).area();
   detail::require_values("the rest area of face", rest_areas_, 0.0, true);
+  for (int first = 0; first < element_count(); first += kLanes) {
+    least8_.emplace_back();
+    for (int l = 0; l < kLanes; ++l) {
+      const int f = std::min(first + l, element_count() - 1);
+      least8_.back().lanes[l] = std::pow(kMargin * 2.0 * threshold * rest_areas_[f], 2);
+    }
+    for (int i = 0; i < 3; ++i) {
+      for (int l = 0; l < kLanes; ++l)
+        corners8_.push_back(vertices(std::min(first + l, element_count() - 1))[i]);
+    }
+  }
+}
+
+// The faces below the threshold, ascending. Few are, and seldom: eight are looked at at once.
+std::vector<int> AreaLimit::squeezed(const Points3& x) const {
+  const int groups = static_cast<int>(least8_.size());
+  std::vector<char> found(groups);
+  parallel_for(groups, kGroups, [&](int begin, int end) {
+    find_squeezed(x.data(), corners8_.data(), least8_.data(), begin, end, found.data());
+  });
+  std::vector<int> faces;
+  for (int g = 0; g < groups; ++g) {
+    if (!found[g]) continue;
+    for (int f = kLanes * g; f < std::min(kLanes * (g + 1), element_count()); ++f) {
+      if (!(Triangle(x, vertices(f)).area() >= threshold_ * rest_areas_[f])) faces.push_back(f);
+    }
+  }
+  return faces;
 }
 
 double AreaLimit::energy(const Points3& x) const {
   double sum = 0.0;
-  for (int f = 0; f < element_count(); ++f) {
+  for (const int f : squeezed(x)) {
     const double ratio = Triangle(x, vertices(f)).area() / rest_areas_[f];
-    if (ratio < threshold_) sum += stiffness_[f] * rest_areas_[f] * Barrier(ratio, threshold_).value;
+    sum += stiffness_[f] * rest_areas_[f] * Barrier(ratio, threshold_).value;
   }
   return sum;
 }
 
 void AreaLimit::add_gradient(const Points3& x, Points3& gradient) const {
-  for (int f = 0; f < element_count(); ++f) {
+  for (const int f : squeezed(x)) {
     const Triangle triangle(x, vertices(f));
-    const double ratio = triangle.area() / rest_areas_[f];
-    if (ratio >= threshold_) continue;
-    const double slope = stiffness_[f] * Barrier(ratio, threshold_).slope;
+    const double slope = stiffness_[f] * Barrier(triangle.area() / rest_areas_[f], threshold_).slope;
     for (int i = 0; i < 3; ++i) gradient.row(vertices(f)[i]) += slope * triangle.gradient(i).transpose();
   }
 }
 
 void AreaLimit::add_hessian(const Points3& x, BlockMatrix& matrix, double scale, Curvature curvature) const {
-  for (int f = 0; f < element_count(); ++f) {
-    const int* v = vertices(f);
-    const Triangle triangle(x, v);
-    const double ratio = triangle.area() / rest_areas_[f];
-    if (ratio >= threshold_) continue;
-    const Barrier barrier(ratio, threshold_);
+  for (const int f : squeezed(x)) {
+    const Triangle triangle(x, vertices(f));
+    const Barrier barrier(triangle.area() / rest_areas_[f], threshold_);
     int pair = 0;
     for (int i = 0; i < 3; ++i) {
       for (int j = i; j < 3; ++j, ++pair) {

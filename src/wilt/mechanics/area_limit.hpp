@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
+#include "wilt/core/simd.hpp"
 #include "wilt/core/types.hpp"
 #include "wilt/mechanics/term.hpp"
 
@@ -25,8 +27,13 @@ class AreaLimit : public Energy {
   void add_hessian(const Points3& x, BlockMatrix& matrix, double scale, Curvature curvature) const override;
 
  private:
+  std::vector<int> squeezed(const Points3& x) const;
+
   Eigen::VectorXd rest_areas_, stiffness_;
   double threshold_;
+  // By groups of eight faces; the last face fills up the last group.
+  std::vector<int> corners8_;    // 3 x 8 vertices per group
+  std::vector<Number8> least8_;  // |N|^2 from which on there is surely no force
 };
 
 }  // namespace wilt

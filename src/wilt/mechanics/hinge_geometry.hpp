@@ -1,4 +1,4 @@
-// The dihedral angle of a hinge with its first and second derivatives (internal).
+// The dihedral angle of a hinge with its first derivatives (internal).
 //
 //          left (2)            e = x1 - x0;  N_A, N_B area normals of the two triangles (0 1 2) and (1 0 3)
 //         /   \                theta = atan2((N_A x N_B) . e/|e|, N_A . N_B)
@@ -22,13 +22,6 @@ struct HingeDerivatives {
   std::array<Vec3, 4> gradient{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
 };
 
-/// Pairs (a, b), a <= b, in the order of BlockPattern::upper_slots.
-inline constexpr std::array<std::array<int, 2>, 10> kHingePairs = {
-    {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {1, 1}, {1, 2}, {1, 3}, {2, 2}, {2, 3}, {3, 3}}};
-
 HingeDerivatives hinge_derivatives(const std::array<Vec3, 4>& x);
-
-/// d2 theta / dx_a dx_b for kHingePairs; the triangles must not be flat.
-std::array<Eigen::Matrix3d, 10> hinge_angle_hessian(const std::array<Vec3, 4>& x);
 
 }  // namespace wilt::detail

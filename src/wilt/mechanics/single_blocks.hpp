@@ -32,6 +32,26 @@ WILT_INLINE Single4 without_fourth(Single4 v) {
   return __builtin_shufflevector(v, Single4{}, 0, 1, 2, 4);
 }
 
+/// A block in registers; the fourth numbers mean nothing.
+struct SingleBlock {
+  Single4 columns[3];
+};
+
+WILT_INLINE SingleBlock load_block(const float* blocks, int slot) {
+  const float* block = blocks + kBlockSize * static_cast<std::ptrdiff_t>(slot);
+  return {{load_column(block), load_column(block + 3), load_column(block + 6)}};
+}
+
+WILT_INLINE void store_block(float* blocks, int slot, const SingleBlock& block) {
+  float* to = blocks + kBlockSize * static_cast<std::ptrdiff_t>(slot);
+  for (int k = 0; k < 3; ++k) std::memcpy(to + 3 * k, &block.columns[k], 3 * sizeof(float));
+}
+
+/// block += a b^T.
+WILT_INLINE void add_outer(SingleBlock& block, Single4 a, Single4 b) {
+  for (int k = 0; k < 3; ++k) block.columns[k] += a * b[k];
+}
+
 /// Block times x, a number that means nothing in the fourth place.
 WILT_INLINE Single4 loose_product(const float* blocks, int slot, Single4 x) {
   const float* block = blocks + kBlockSize * static_cast<std::ptrdiff_t>(slot);

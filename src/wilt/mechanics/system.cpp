@@ -48,6 +48,7 @@ std::shared_ptr<const BlockPattern> System::make_pattern() {
   const auto pattern = std::make_shared<const BlockPattern>(vertex_count(), stencils);
   for (const auto& [name, energy] : energies_) energy->bind(*pattern);
   for (const auto& [name, force] : forces_) force->bind(*pattern);
+  if (edge_law() != nullptr) springs_->stiffness.emplace(springs_->terms.front()->stencil(), *pattern);
   return pattern;
 }
 
@@ -174,9 +175,14 @@ void System::assemble(const Points3& x, const Points3& v, double position_scale,
                       Curvature curvature, BlockMatrix& matrix) const {
   matrix.set_zero();
   for (int i = 0; i < vertex_count(); ++i) matrix.add_diagonal(i, masses_[i]);
-  for (const auto& [name, energy] : energies_) energy->add_hessian(x, matrix, position_scale, curvature);
-  for (const auto& [name, force] : forces_)
-    force->add_jacobian(x, v, matrix, position_scale, velocity_scale, curvature);
+  if (const EdgeLaw* law = edge_law())
+    springs_->stiffness->add(*law, x, position_scale, velocity_scale, curvature, matrix);
+  for (const auto& [name, energy] : energies_) {
+    if (!in_springs(*energy)) energy->add_hessian(x, matrix, position_scale, curvature);
+  }
+  for (const auto& [name, force] : forces_) {
+    if (!in_springs(*force)) force->add_jacobian(x, v, matrix, position_scale, velocity_scale, curvature);
+  }
 }
 
 }  // namespace wilt

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "wilt/core/types.hpp"
+#include "wilt/mechanics/edge_stiffness.hpp"
 #include "wilt/mechanics/spring_network.hpp"
 #include "wilt/mechanics/term.hpp"
 
@@ -83,7 +84,7 @@ class System {
   std::vector<std::pair<std::string, double>> energies(const Points3& x) const;
   double kinetic_energy(const Points3& v) const;
 
-  /// matrix = M - position_scale dF/dx - velocity_scale dF/dv, finished.
+  /// matrix = M - position_scale dF/dx - velocity_scale dF/dv; its pattern is from make_pattern.
   void assemble(const Points3& x, const Points3& v, double position_scale, double velocity_scale,
                 Curvature curvature, BlockMatrix& matrix) const;
 
@@ -96,6 +97,7 @@ class System {
   // The laws along edges in one, made when first asked for and whenever a coefficient has changed since.
   struct Springs {
     std::optional<SpringNetwork> network;
+    std::optional<detail::EdgeStiffness> stiffness;
     std::vector<const Term*> terms;
     EdgeLaw law;  // their sum; kept, since a step should not ask for memory
   };

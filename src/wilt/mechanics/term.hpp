@@ -26,7 +26,7 @@ class Term {
   const Stencil& stencil() const { return stencil_; }
 
   /// Looks up where the elements' blocks are; needed before a matrix of this pattern is filled.
-  void bind(const BlockPattern& pattern) { slots_ = pattern.pair_slots(stencil_); }
+  virtual void bind(const BlockPattern& pattern) { slots_ = pattern.pair_slots(stencil_); }
 
   /// Where the force is a law along edges (the rows of the stencil): adds a part of its coefficients and
   /// returns true.

@@ -32,7 +32,7 @@ struct Config {
   } clip;
   struct {
     std::string peaks = "prominence", geodesics = "fast";
-    std::int64_t window_vertices = 8, full_embedding_up_to = 3000, landmarks = 60;
+    std::int64_t window_vertices = 8, full_embedding_up_to = 1000, landmarks = 60;
     double window_length = 0.06, min_prominence = 0.02;
     bool secondary = true;
   } veins;

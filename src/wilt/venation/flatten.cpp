@@ -9,6 +9,8 @@
 namespace wilt::detail {
 namespace {
 
+constexpr double kRelaxation = 1.8;  // of SMACOF
+
 using Clock = std::chrono::steady_clock;
 
 double seconds(Clock::time_point from, Clock::time_point to) {
@@ -20,8 +22,10 @@ std::vector<VertexId> spread_landmarks(const Points3& positions, VertexId first,
   std::vector<VertexId> landmarks{first};
   Eigen::VectorXd nearest = (positions.rowwise() - positions.row(first)).rowwise().squaredNorm();
   while (static_cast<int>(landmarks.size()) < count) {
+    // Of those as far, to round-off, the first: a moved leaf has the same landmarks.
+    const double enough = (1.0 - 1e-9) * nearest.maxCoeff();
     int farthest = 0;
-    nearest.maxCoeff(&farthest);
+    while (nearest(farthest) < enough) ++farthest;
     landmarks.push_back(VertexId(farthest));
     nearest = nearest.cwiseMin((positions.rowwise() - positions.row(farthest)).rowwise().squaredNorm());
   }
@@ -48,27 +52,30 @@ Points2 oriented(const Points2& points, const SurfaceMesh& mesh, VertexId petiol
 
 }  // namespace
 
-Flattened flatten(const Leaf& leaf, const VenationOptions& options, const Monitor& monitor) {
+Flattened flatten(const Leaf& leaf, const FastGeodesics& fast, const VenationOptions& options,
+                  const Monitor& monitor) {
   const int vertices = leaf.mesh.num_vertices();
-  const auto begin = Clock::now();
-  auto distances_known = begin;
+  const std::vector<VertexId> landmarks =
+      spread_landmarks(leaf.positions, leaf.petiole, std::min(options.landmarks, vertices));
+  const std::vector<int> columns(landmarks.begin(), landmarks.end());
+  Clock::time_point distances_known;
   Embedding embedding;
   if (vertices <= options.full_embedding_up_to) {
     const Eigen::MatrixXd distances = all_pairs(leaf.mesh, leaf.positions, options.geodesics, monitor);
     distances_known = Clock::now();
-    embedding = smacof(distances, classical_mds(distances).coordinates, {}, monitor);
+    const Points2 start = landmark_mds(distances(Eigen::all, columns), columns).coordinates;
+    embedding = smacof(distances, start, {.relaxation = kRelaxation}, monitor);
   } else {
-    const std::vector<VertexId> landmarks =
-        spread_landmarks(leaf.positions, leaf.petiole, std::min(options.landmarks, vertices));
     const Eigen::MatrixXd distances =
-        geodesic_distances(leaf.mesh, leaf.positions, landmarks, options.geodesics, monitor);
+        options.geodesics == GeodesicMethod::fast
+            ? fast.distances(landmarks, monitor)
+            : geodesic_distances(leaf.mesh, leaf.positions, landmarks, GeodesicMethod::exact, monitor);
     distances_known = Clock::now();
-    embedding = landmark_mds(distances, {landmarks.begin(), landmarks.end()}, {}, monitor);
+    embedding = landmark_mds(distances, columns, {}, monitor);
   }
   Flattened result;
   result.coordinates = oriented(embedding.coordinates, leaf.mesh, leaf.petiole);
   result.stress = embedding.stress;
-  result.geodesics_seconds = seconds(begin, distances_known);
   result.embedding_seconds = seconds(distances_known, Clock::now());
   return result;
 }

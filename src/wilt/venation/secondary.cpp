@@ -17,7 +17,8 @@ constexpr double kLast = 0.06;       // nor on this last share
 constexpr double kClearance = 0.25;  // between veins, in units of the spacing
 constexpr double kShortest = 0.2;    // a shorter vein is left out, in units of the spacing
 constexpr double kReach = 0.96;      // share of the way to whatever stops it that a vein covers
-constexpr int kPasses = 4;           // straight first, then bent over the length found before
+constexpr double kCoarse = 0.1;  // between the points that a drawn vein is kept by, in units of the clearance
+constexpr int kPasses = 4;       // straight first, then bent over the length found before
 
 /// A place on a primary vein.
 struct Origin {
@@ -156,9 +157,14 @@ class SecondaryVeins {
     Drawn drawn;
     drawn.parent = vein.parent;
     drawn.side = side;
+    const double apart = kCoarse * kClearance * spacing_;
     for (const SurfacePoint& point : vein.path.points) {
-      drawn.points.push_back(position(mesh_, positions_, point));
-      drawn.box.extend(drawn.points.back());
+      const Vec3 place = position(mesh_, positions_, point);
+      if (!drawn.points.empty() && &point != &vein.path.points.back() &&
+          (place - drawn.points.back()).norm() < apart)
+        continue;
+      drawn.points.push_back(place);
+      drawn.box.extend(place);
     }
     drawn_.push_back(std::move(drawn));
   }

@@ -27,8 +27,8 @@ struct Vein {
 
 struct VenationOptions {
   PeakOptions peaks;
-  GeodesicMethod geodesics = GeodesicMethod::fast;  ///< of the distance matrix; veins are always exact
-  int full_embedding_up_to = 3000;                  ///< vertices; above, landmarks
+  GeodesicMethod geodesics = GeodesicMethod::fast;  ///< of distances; veins' paths are always exact
+  int full_embedding_up_to = 1000;                  ///< vertices; above, landmarks
   int landmarks = 60;                               ///< >= 4
   bool secondary = true;                            ///< whether to draw secondary veins
   void validate() const;                            ///< throws Error{configuration}
@@ -42,7 +42,7 @@ struct Venation {
   Points2 flat;  ///< #V x 2, petiole at the origin, centroid on +y, faces counter-clockwise
   Eigen::VectorXd primary_distance;  ///< #V, gd_i: metres to the nearest primary vein
   Eigen::VectorXd vein_distance;     ///< #V, metres to the nearest primary or secondary vein
-  Eigen::MatrixXd tip_distance;      ///< #tips x #V, exact, metres
+  Eigen::MatrixXd tip_distance;      ///< #tips x #V, metres, by options.geodesics
   struct Timings {
     double geodesics = 0.0, embedding = 0.0, venation = 0.0;
   } timings;  ///< seconds
