@@ -44,6 +44,8 @@ class Stages:
             self.step("midpoint step of the springs, 1M", "soft_1M", Below(30e-9), Below(14e-9), bullet=False, repetitions=3, heavy=True),
             self.step("stiff step, k = 1000, 2k", "stiff_2k", Ratio(6), Ratio(14)),
             self.step("stiff step, k = 1000, 10k", "stiff_10k", Ratio(6), Ratio(14)),
+            Row("16 leaves of one topology at once, 1k each", self.ours("mechanics", "batch_step/soft_1k"),
+                {"Bullet": self.peer("bullet", "bullet_step/soft_1k")}, Ratio(20), Ratio(33), per_spring=True),
             self.default_step("2k"),
             self.default_step("5k", heavy=True),
             self.default_step("10k", heavy=True),
