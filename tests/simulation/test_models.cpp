@@ -109,6 +109,16 @@ TEST_P(EveryModel, KeepsWhatWasComputedWhenInterrupted) {
   EXPECT_EQ(result.frames.back().iteration, 5);
 }
 
+// Oracle: planted; the mesh on which the printed form fails.
+TEST(PaperModel, SaysWhenTheMeshIsTooFineForThePrintedPermeation) {
+  EXPECT_TRUE(run(make_case("willow", "paper")).note.empty());
+  Case fine = make_case("willow", "paper", 5000);
+  fine.config.iterations = 40;  // as printed it stops at 36
+  const SimulationResult result = run(fine);
+  EXPECT_NE(result.note.find("printed permeation"), std::string::npos);
+  EXPECT_TRUE(result.completed) << result.stop_reason;
+}
+
 // Oracle: conservation of momentum and angular momentum, on a free leaf without external force or gravity.
 TEST(CellModel, HasNoNetInternalForceOrTorque) {
   Case c = make_case("maple", "cell");

@@ -103,6 +103,18 @@ TEST(Permeation, TwoCellsExchangeAsTheFormulaSays) {
   EXPECT_NEAR(water[1], 0.5 + flow, 1e-13);
 }
 
+// Oracle: the formula by hand.
+TEST(Permeation, PrintedNumberIsTheShareThatGoesInAStep) {
+  Edges edge(1, 2);
+  edge << 0, 1;
+  const Permeation permeation(2, edge, Eigen::VectorXd::Constant(1, 0.5));
+  const Eigen::Vector2d dry(0.2, 0.3), water(0.8, 0.6);
+  // Masses 1.0 and 0.9, E = l = 0.5: dt u_i (2/E) lambda b_j / (l (m_i + m_j)).
+  const double first = 0.1 * 4.0 * 4.0 * 0.1 * 0.3 / (0.5 * 1.9),
+               second = 0.1 * 2.0 * 4.0 * 0.1 * 0.2 / (0.5 * 1.9);
+  EXPECT_NEAR(permeation.printed_number(dry, water, 0.1), 0.5 * (first + second), 1e-15);
+}
+
 // Oracle: differential; equation 1 written out as a dense matrix in w and solved directly.
 TEST(Permeation, SolvesThePrintedOperatorAsALinearSystem) {
   Tissue t = tissue(6, 4);

@@ -69,6 +69,7 @@ std::string report_json(const Leaf& leaf, const Venation& venation, const Simula
                  {"metrics", result.metrics.empty() ? Json::object() : metrics_json(result.metrics.back())},
                  {"positions_hash", result.positions_hash}};
   if (!result.completed) report["stopped"] = result.stop_reason;
+  if (!result.note.empty()) report["note"] = result.note;
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -31,6 +31,9 @@ class DeformationModel {
 
   virtual System& system() = 0;
 
+  /// What the model does otherwise than its name says, on this leaf; empty: nothing.
+  virtual std::string note() const { return {}; }
+
   /// The forces at a state (#V x 3 each), for reports.
   virtual ForceBreakdown forces(const Points3& x, const Points3& v) const = 0;
 

@@ -55,6 +55,12 @@ PaperModel::PaperModel(const ModelInput& input)
   external_force_ = &system_.add_force("external", std::make_unique<NodalForce>(external_.on_vertices()));
 }
 
+std::string PaperModel::note() const {
+  return water_.printed_permeation() ? ""
+                                     : "the printed permeation is unstable on a mesh as fine as this; the "
+                                       "conservative one is used instead";
+}
+
 void PaperModel::advance(double dt, const Points3& x) {
   system_.set_masses(water_.mass());  // m^n in the step from n to n+1
   water_.advance(dt);

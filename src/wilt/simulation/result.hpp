@@ -61,6 +61,7 @@ struct SimulationResult {
   bool completed = true;     ///< false: stopped early; `stop_reason` says why, what was computed is kept
   bool interrupted = false;  ///< the user asked to stop
   std::string stop_reason;
+  std::string note;            ///< what the model did otherwise than its name says; empty: nothing
   std::string positions_hash;  ///< FNV-1a over the last frame's positions, 16 hexadecimal digits
 };
 

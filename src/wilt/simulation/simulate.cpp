@@ -63,6 +63,8 @@ class Run {
     state_.velocities = Points3::Zero(rest_.rows(), 3);
   }
 
+  std::string note() const { return model_->note(); }
+
   /// Returns false, with the reason in the result, when the step could not be taken.
   bool step(int iteration, SimulationResult& result) {
     try {
@@ -148,6 +150,8 @@ SimulationResult simulate(const Leaf& leaf, const Venation& venation, const Conf
                           const Monitor& monitor) {
   SimulationResult result;
   Run run(leaf, venation, config);
+  result.note = run.note();
+  if (!result.note.empty()) monitor.say(result.note);
   const std::vector<int> frames = frame_iterations(config);
   std::size_t next_frame = 0;
   const int last = static_cast<int>(config.iterations);

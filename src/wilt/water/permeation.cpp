@@ -244,4 +244,18 @@ WaterReport Permeation::printed_step(const Eigen::VectorXd& dry, Eigen::VectorXd
   return report;
 }
 
+double Permeation::printed_number(const Eigen::VectorXd& dry, const Eigen::VectorXd& water, double dt) const {
+  const Impl& p = *impl_;
+  double total = 0.0;
+  for (int i = 0; i < p.cells(); ++i) {
+    double sum = 0.0;
+    for (int place = p.starts[i]; place < p.starts[i + 1]; ++place) {
+      const int j = p.neighbours[place];
+      sum += p.options.lambda * dry[j] / (p.rest_lengths[place] * (dry[i] + water[i] + dry[j] + water[j]));
+    }
+    total += dt * water[i] / dry[i] * 2.0 * sum / p.length_sums[i];
+  }
+  return total / p.cells();
+}
+
 }  // namespace wilt

@@ -58,6 +58,11 @@ class Permeation {
   WaterReport printed_step(const Eigen::VectorXd& dry, Eigen::VectorXd& water, const Eigen::VectorXd& loss,
                            double dt);
 
+  /// The mean over the cells of dt u_i (2/E_i) sum_j lambda b_j / (l_ij (m_i + m_j)): by which share the
+  /// printed form lets a cell's difference to its neighbours go in one step. It grows with the number of
+  /// vertices; beyond 1 neighbours overshoot each other, as in any explicit step of diffusion.
+  double printed_number(const Eigen::VectorXd& dry, const Eigen::VectorXd& water, double dt) const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
