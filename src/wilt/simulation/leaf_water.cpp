@@ -11,6 +11,7 @@ PermeationOptions permeation_options(const Config& config, double scale) {
   PermeationOptions options;
   options.lambda = config.water.diffusion;
   options.min_water *= scale;
+  options.tolerance = 1e-10;  // of a step of motion: 1e-8; the total is kept whatever this is
   return options;
 }
 
