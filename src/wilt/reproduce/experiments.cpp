@@ -17,8 +17,9 @@ const Subject& Experiments::leaf(const std::string& name) {
   quiet_.throw_if_cancelled();
   auto made = std::make_unique<Subject>();
   made->leaf = make_leaf(name, vertices_, seed_, quiet_);
-  made->venation = find_venation(made->leaf, species(name).secondary, venation_options(Config()),
-                                 {{}, quiet_.cancelled, {}});
+  VenationOptions options = venation_options(Config());
+  options.full_embedding_up_to = vertices_;  // all pairs are embedded, as in the paper
+  made->venation = find_venation(made->leaf, species(name).secondary, options, {{}, quiet_.cancelled, {}});
   subject = std::move(made);
   return *subject;
 }
