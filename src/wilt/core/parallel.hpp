@@ -20,7 +20,7 @@ double parallel_sum(int count, int block, const std::function<double(int begin, 
 
 /// Threads that stay awake between short loops.
 ///
-/// A sleeping thread takes some 50 us to wake, longer than a pass over ten thousand vertices; while a Crew
+/// A sleeping thread takes some 30 us to wake, as long as a pass over ten thousand vertices; while a Crew
 /// lives its helpers spin from one loop to the next instead. So let it live for one computation, and its
 /// loops follow each other closely. Helpers are asked for at the first loop that needs them and join when
 /// they can; the calling thread never waits for one that has not come. Serial when built without

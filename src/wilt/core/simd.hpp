@@ -3,8 +3,7 @@
 // The lanes are the compiler's own vectors (GCC and Clang): one source for AVX-512, AVX2, SSE2, NEON and
 // WebAssembly, with the same width, the same order of operations and no contraction everywhere, so the
 // results are the same bytes on all of them. std::experimental::simd and xsimd do not reach WebAssembly from
-// Debian, and loops left to the vectoriser gather three numbers of eight vertices eight times slower than a
-// transpose.
+// Debian, and the vectoriser does not find the transposes by which points are gathered here.
 #pragma once
 
 #include <cmath>
@@ -24,11 +23,10 @@
 
 namespace wilt {
 
-/// For values in functions, not for arrays: + - * / act lane by lane, also with one number on either side; a
-/// comparison gives a Mask8. (Code for different processors disagrees on how a bare vector is aligned in
-/// memory.)
+/// For values in functions, not for arrays: + - * / act lane by lane, also with one number on either side,
+/// and so does ?: on a comparison. (Code for different processors disagrees on how a bare vector is aligned
+/// in memory.)
 using Double8 = double __attribute__((vector_size(64)));
-using Mask8 = long __attribute__((vector_size(64)));  ///< all bits of a lane, or none
 using Double4 = double __attribute__((vector_size(32)));
 
 /// Sixteen floats, for what ends as eight bits a channel, and as many whole numbers (bits of a random word).
@@ -73,34 +71,39 @@ namespace simd {
 
 constexpr int kLanes = 8;
 
+/// Added to a squared length, to divide by its root: without it 0/0 where there is no length, with it 0.
+constexpr double kTiny = 1e-300;
+
 /// `from` need not be aligned.
 WILT_INLINE Double8 load(const double* from) {
   Double8 v;
   std::memcpy(&v, from, sizeof v);
   return v;
 }
-WILT_INLINE void store(double* to, Double8 v) {
-  std::memcpy(to, &v, sizeof v);
-}
 WILT_INLINE Float16 load(const float* from) {
   Float16 v;
   std::memcpy(&v, from, sizeof v);
   return v;
 }
-WILT_INLINE void store(float* to, Float16 v) {
+template <class Number, class Vector>
+WILT_INLINE void store(Number* to, Vector v) {
   std::memcpy(to, &v, sizeof v);
 }
 
-WILT_INLINE Double8 sqrt(Double8 v) {
-  Double8 r;
-  for (int l = 0; l < kLanes; ++l) r[l] = std::sqrt(v[l]);
+template <class Vector>
+WILT_INLINE Vector sqrt(Vector v) {
+  Vector r;
+  for (std::size_t l = 0; l < sizeof(Vector) / sizeof(v[0]); ++l) r[l] = std::sqrt(v[l]);
   return r;
 }
 
-WILT_INLINE Float16 sqrt(Float16 v) {
-  Float16 r;
-  for (int l = 0; l < 2 * kLanes; ++l) r[l] = std::sqrt(v[l]);
-  return r;
+template <class Vector>
+WILT_INLINE Vector smaller(Vector a, Vector b) {
+  return a < b ? a : b;
+}
+template <class Vector>
+WILT_INLINE Vector larger(Vector a, Vector b) {
+  return a > b ? a : b;
 }
 
 /// Always added in this order.

@@ -21,7 +21,6 @@ namespace wilt {
 namespace {
 
 constexpr int kMaxSteps = 100;       // of one vertex's descent
-constexpr double kTiny = 1e-300;     // added to squared distances: a landmark at the vertex pulls nowhere
 constexpr double kSmallMove = 1e-6;  // a step to stop at, in units of the landmarks' extent
 
 void validate(const Eigen::MatrixXd& landmark_distances, const std::vector<int>& landmarks) {
@@ -72,7 +71,8 @@ WILT_CLONES Vec2 majorise(const Vec2& x, const Anchors& anchors, const double* d
   for (std::size_t a = 0; a < anchors.x.size(); a += simd::kLanes) {
     const Double8 anchor_x = simd::load(&anchors.x[a]), anchor_y = simd::load(&anchors.y[a]);
     const Double8 away_x = x.x() - anchor_x, away_y = x.y() - anchor_y;
-    const Double8 ratio = simd::load(distances + a) / simd::sqrt(away_x * away_x + away_y * away_y + kTiny);
+    const Double8 ratio =
+        simd::load(distances + a) / simd::sqrt(away_x * away_x + away_y * away_y + simd::kTiny);
     sum_x += anchor_x + ratio * away_x;
     sum_y += anchor_y + ratio * away_y;
   }

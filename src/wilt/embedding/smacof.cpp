@@ -23,9 +23,8 @@
 namespace wilt {
 namespace {
 
-constexpr int kRows = 4;          // rows that are taken at once
-constexpr int kBands = 16;        // fixed, so that sums round alike on any number of threads
-constexpr double kTiny = 1e-300;  // added to squared distances: coincident points attract nothing
+constexpr int kRows = 4;    // rows that are taken at once
+constexpr int kBands = 16;  // fixed, so that sums round alike on any number of threads
 
 /// Padded with zeros to whole vectors.
 struct Plane {
@@ -59,7 +58,7 @@ WILT_INLINE void add_rows(const Eigen::MatrixXd& distances, const Plane& points,
     Double8 pull_x = simd::load(&band.forces.x[j]), pull_y = simd::load(&band.forces.y[j]);
     for (int k = 0; k < kCount; ++k) {
       const Double8 dx = x[k] - other_x, dy = y[k] - other_y;
-      const Double8 wanted = wanted_of(k), d = simd::sqrt(dx * dx + dy * dy + kTiny);
+      const Double8 wanted = wanted_of(k), d = simd::sqrt(dx * dx + dy * dy + simd::kTiny);
       const Double8 ratio = wanted / d, error = counts(k, d - wanted);
       const Double8 force_x = ratio * dx, force_y = ratio * dy;
       sum_x[k] += force_x;

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "wilt/core/check.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/mechanics/breadth_first.hpp"
 
 namespace wilt {
 namespace {
@@ -40,20 +40,13 @@ Graph coupled_vertices(int vertex_count, const std::vector<Stencil>& stencils) {
 }
 
 std::vector<int> breadth_first(const Graph& graph) {
-  std::vector<int> order;
-  std::vector<char> seen(graph.size(), 0);
+  const auto neighbours = [&](int i, const auto& visit) {
+    for (const int j : graph[i]) visit(j);
+  };
+  std::vector<int> order, seen(graph.size(), 0);
   order.reserve(graph.size());
   for (std::size_t start = 0; start < graph.size(); ++start) {
-    if (seen[start]) continue;
-    seen[start] = 1;
-    order.push_back(static_cast<int>(start));
-    for (std::size_t k = order.size() - 1; k < order.size(); ++k) {
-      for (const int j : graph[order[k]]) {
-        if (seen[j]) continue;
-        seen[j] = 1;
-        order.push_back(j);
-      }
-    }
+    if (!seen[start]) detail::append_breadth_first(static_cast<int>(start), 1, neighbours, seen, order);
   }
   return order;
 }

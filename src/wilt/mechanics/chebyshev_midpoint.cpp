@@ -15,9 +15,9 @@ namespace wilt::detail {
 namespace {
 
 using simd::kLanes;
+using simd::larger;
 
-constexpr int kGroups = 128;      // per block of a sum, and per parallel task
-constexpr double kTiny = 1e-300;  // added to squared lengths: an edge without length pulls nowhere
+constexpr int kGroups = 128;   // per block of a sum, and per parallel task
 constexpr double kFlat = 0.6;  // the largest row sum of sum_j n n^T over the degree: 1/2 in a plane, and room
 constexpr double kEstimate = 0.5;      // below it the spectrum is estimated, above it bounded
 constexpr double kLargestHigh = 60.0;  // beyond it, more than a hundred passes
@@ -25,9 +25,6 @@ constexpr double kLargestLow = 0.5;    // beyond it, compressed springs make the
 constexpr int kMargin = 10;            // passes beyond twice those that the spectrum promises
 constexpr double kRoundOff = 4.0 * std::numeric_limits<double>::epsilon();
 
-WILT_INLINE Double8 larger(Double8 a, Double8 b) {
-  return a > b ? a : b;
-}
 WILT_INLINE Double8 positive(Double8 v) {
   return larger(v, Double8{});
 }
@@ -113,7 +110,7 @@ WILT_CLONES void bounds_of_groups(const StartPass& pass, int begin, int end, dou
     Double8 softness{};
     for (int s = pass.rows->group_begin[g]; s < pass.rows->group_begin[g + 1]; ++s) {
       const Point8 d = simd::gather(pass.x, pass.rows->neighbours.data() + kLanes * s) - xi;
-      const Double8 inverse = 1.0 / simd::sqrt(dot(d, d) + kTiny);
+      const Double8 inverse = 1.0 / simd::sqrt(dot(d, d) + simd::kTiny);
       const Double8 stretch = pass.stretch[s].lanes, damping = pass.damping_scale * pass.damping[s].lanes;
       const Double8 across = stretch - pass.push[s].lanes * inverse;
       stiffness.add(stretch + damping, positive(across) + damping, inverse * d);
@@ -158,7 +155,7 @@ WILT_CLONES double iterate_groups(const IterationPass& pass, int begin, int end)
     Point8 f;
     for (int s = pass.rows->group_begin[g]; s < pass.rows->group_begin[g + 1]; ++s) {
       const Point8 edge = simd::gather(pass.u, pass.rows->neighbours.data() + kLanes * s) - u;
-      f = f + (pass.pull[s].lanes - pass.push[s].lanes / simd::sqrt(dot(edge, edge) + kTiny)) * edge;
+      f = f + (pass.pull[s].lanes - pass.push[s].lanes / simd::sqrt(dot(edge, edge) + simd::kTiny)) * edge;
     }
     const Point8 r = pass.constant[g] + pass.weight[g].lanes * f - u, residual = pass.inertia[g].lanes * r;
     sum += dot(residual, residual);

@@ -10,9 +10,8 @@ namespace {
 
 using simd::kLanes;
 
-constexpr int kGroups = 128;      // of edges,
-constexpr int kRows = 256;        // and rows per parallel task
-constexpr double kTiny = 1e-300;  // added to squared lengths: an edge without length has no direction
+constexpr int kGroups = 128;  // of edges,
+constexpr int kRows = 256;    // and rows per parallel task
 
 struct Pass {
   int edge_count;
@@ -31,23 +30,19 @@ struct Pass {
   }
 };
 
-WILT_INLINE Double8 at_least_0(Double8 v) {
-  return v > 0.0 ? v : Double8{};
-}
-
 WILT_CLONES void stiffness_of_groups(const Pass& pass, int begin, int end, StiffEdge* edges) {
   Point4 directions[kLanes], stiffness[kLanes];
   for (int g = begin; g < end; ++g) {
     const int* ends = pass.ends + 2 * kLanes * g;
     const Point8 edge = simd::gather(pass.x, ends + kLanes) - simd::gather(pass.x, ends);
-    const Double8 per_length = 1.0 / simd::sqrt(dot(edge, edge) + kTiny);
+    const Double8 per_length = 1.0 / simd::sqrt(dot(edge, edge) + simd::kTiny);
     const Double8 stretch = pass.load(pass.stretch, g);
     Double8 along = stretch;
     Double8 across0 = stretch - per_length * pass.load(pass.push0, g);
     Double8 across1 = stretch - per_length * pass.load(pass.push1, g);
     if (pass.semidefinite) {
-      along = at_least_0(along);
-      across0 = across1 = at_least_0(0.5 * (across0 + across1));
+      along = simd::larger(along, Double8{});
+      across0 = across1 = simd::larger(0.5 * (across0 + across1), Double8{});
     }
     const Double8 drag = pass.velocity_scale * pass.load(pass.damping, g);
     simd::store_points(directions, per_length * edge);

@@ -95,8 +95,8 @@ WILT_CLONES void slopes_of_groups(const Pass& pass, double scale, int begin, int
   }
 }
 
-WILT_CLONES void add_outer_products(const detail::IndexLists& slot_corners, const SinglePoint* slopes,
-                                    int begin, int end, float* blocks) {
+WILT_CLONES void add_outer_products(const IndexLists& slot_corners, const SinglePoint* slopes, int begin,
+                                    int end, float* blocks) {
   for (int s = begin; s < end; ++s) {
     const auto list = slot_corners[s];
     if (list.empty()) continue;
@@ -177,7 +177,7 @@ void Hinges::group_corners(int vertex_count) {
   for (int h = 0; h < element_count(); ++h) {
     for (int a = 0; a < 4; ++a) of_vertices.emplace_back(vertices(h)[a], 4 * h + a);
   }
-  vertex_corners_ = detail::IndexLists(vertex_count, of_vertices);
+  vertex_corners_ = IndexLists(vertex_count, of_vertices);
 }
 
 void Hinges::bind(const BlockPattern& pattern) {
@@ -188,7 +188,7 @@ void Hinges::bind(const BlockPattern& pattern) {
         of_slots.emplace_back(pattern.slot(vertices(h)[a], vertices(h)[b]), 16 * h + 4 * a + b);
     }
   }
-  slot_corners_ = detail::IndexLists(pattern.slot_count(), of_slots);
+  slot_corners_ = IndexLists(pattern.slot_count(), of_slots);
 }
 
 void Hinges::set_rest_angles(const Eigen::VectorXd& angles) {

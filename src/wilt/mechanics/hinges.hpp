@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "wilt/core/index_lists.hpp"
 #include "wilt/core/simd.hpp"
 #include "wilt/core/types.hpp"
-#include "wilt/mechanics/index_lists.hpp"
 #include "wilt/mechanics/single_blocks.hpp"
 #include "wilt/mechanics/term.hpp"
 
@@ -62,8 +62,8 @@ class Hinges : public Energy {
   std::vector<Number8> moduli8_, rest_angles8_;  // k W, theta_rest
 
   // Corner a of hinge h is 4 h + a; the pair of its corners a and b is 4 (4 h + a) + b.
-  detail::IndexLists vertex_corners_;  // per vertex
-  detail::IndexLists slot_corners_;    // pairs, per block of the matrix
+  IndexLists vertex_corners_;  // per vertex
+  IndexLists slot_corners_;    // pairs, per block of the matrix
   mutable std::vector<Point4> corner_forces_;
   mutable std::vector<detail::SinglePoint> corner_slopes_;
 };

@@ -9,8 +9,7 @@ namespace {
 using detail::EdgeRows;
 using simd::kLanes;
 
-constexpr int kGroups = 128;      // per parallel task
-constexpr double kTiny = 1e-300;  // added to squared lengths: an edge without length pulls nowhere
+constexpr int kGroups = 128;  // per parallel task
 
 // Public vectors in the rows' order.
 std::vector<Point4> in_rows(const EdgeRows& rows, const Points3& values) {
@@ -35,7 +34,7 @@ WILT_CLONES void force_on_groups(const Pass& pass, int begin, int end, Point4* f
     for (int s = pass.rows->group_begin[g]; s < pass.rows->group_begin[g + 1]; ++s) {
       const int* neighbours = pass.rows->neighbours.data() + kLanes * s;
       const Point8 edge = simd::gather(pass.x, neighbours) - xi;
-      const Double8 length = simd::sqrt(dot(edge, edge) + kTiny);
+      const Double8 length = simd::sqrt(dot(edge, edge) + simd::kTiny);
       const Double8 pull = pass.stretch[s].lanes - pass.push[s].lanes / length;
       f = f + pull * edge + pass.damping[s].lanes * (simd::gather(pass.v, neighbours) - vi);
     }

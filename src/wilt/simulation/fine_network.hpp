@@ -14,14 +14,8 @@ struct alignas(64) Place16 {
   Float16 x, y;
 };
 
-WILT_INLINE Float16 smaller(Float16 a, Float16 b) {
-  return a < b ? a : b;
-}
-WILT_INLINE Float16 larger(Float16 a, Float16 b) {
-  return a > b ? a : b;
-}
 WILT_INLINE Float16 clamped(Float16 v, float low, float high) {
-  return larger(smaller(v, Float16{} + high), Float16{} + low);
+  return simd::larger(simd::smaller(v, Float16{} + high), Float16{} + low);
 }
 
 /// The next whole number below.
@@ -124,7 +118,7 @@ WILT_INLINE FineNetwork16 fine_network(const Place16& p, std::uint64_t seed) {
     return wall_distance({q.x * frequency, q.y * frequency}, mix_hash(seed, purpose));
   };
   const auto ridge = [](Float16 distance, float width) __attribute__((always_inline)) {
-    const Float16 x = smaller(distance / width, Float16{} + 1.0f), y = 1.0f - x * x;
+    const Float16 x = simd::smaller(distance / width, Float16{} + 1.0f), y = 1.0f - x * x;
     return y * y;
   };
   const Place16 coarse = bent(p, 31.0f, 0.006f, 11), fine = bent(coarse, 110.0f, 0.0012f, 21);

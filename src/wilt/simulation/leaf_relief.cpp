@@ -19,7 +19,7 @@ constexpr float kFreshShare = 0.25f;                           // of crinkles an
 // A noise that creases: ridges where smooth noise changes its sign.
 WILT_INLINE Float16 creases(const Place16& p, std::uint64_t seed) {
   const Float16 noise = value_noise(p, seed);
-  return 1.0f - 2.0f * larger(noise, -noise);
+  return 1.0f - 2.0f * simd::larger(noise, -noise);
 }
 
 // 0 from 0 on, 1 from `high` on.

@@ -12,7 +12,7 @@ namespace {
 
 // exp(-x^2) to 0.04, 0 from 2.8 on.
 WILT_INLINE Float16 bell(Float16 x) {
-  const Float16 a = larger(1.0f - 0.125f * x * x, Float16{});
+  const Float16 a = simd::larger(1.0f - 0.125f * x * x, Float16{});
   const Float16 b = a * a, c = b * b;
   return c * c;
 }
@@ -29,7 +29,7 @@ WILT_INLINE Float16 spot(const Place16& p, Float16 age, std::uint64_t seed) {
   const Float16 ragged = 1.0f + 0.35f * value_noise({p.x * 260.0f, p.y * 260.0f}, seed);
   const Float16 depth =
       clamped(2.5f * (1.0f - simd::sqrt(from_x * from_x + from_y * from_y) / (radius * ragged)), 0.0f, 1.0f);
-  const Int16 is_here = unit(which, 16) <= kMost * smaller(age, Float16{} + 1.0f);
+  const Int16 is_here = unit(which, 16) <= kMost * simd::smaller(age, Float16{} + 1.0f);
   return is_here ? depth : Float16{};
 }
 
@@ -48,7 +48,8 @@ WILT_CLONES void add_detail(const BladeRow& row, std::uint64_t leaf_seed, RowTis
       return value_noise({p.x * frequency, p.y * frequency}, mix_hash(seed, purpose));
     };
     const FineNetwork16 network = fine_network(p, leaf_seed);
-    const Float16 fine = larger(network.tertiary, larger(0.6f * network.quaternary, 0.3f * network.areole));
+    const Float16 fine =
+        simd::larger(network.tertiary, simd::larger(0.6f * network.quaternary, 0.3f * network.areole));
     const Float16 blotch = noise(13.0f, 1), mottle = noise(47.0f, 2), grain = noise(210.0f, 3);
     const Float16 dryness = simd::load(&tissue.dryness[i]);
     const Float16 rim = bell(simd::load(&tissue.margin[i]) / 0.006f);
@@ -57,7 +58,7 @@ WILT_CLONES void add_detail(const BladeRow& row, std::uint64_t leaf_seed, RowTis
     age += (1.38f - age) * 0.8f * spot(p, age, mix_hash(seed, 4));
     simd::store(&tissue.age[i], age);
     simd::store(&tissue.redness[i], simd::load(&tissue.redness[i]) + 0.25f * mottle + 0.1f * blotch);
-    simd::store(&tissue.vein[i], larger(simd::load(&row.vein[i]), 0.28f * fine));
+    simd::store(&tissue.vein[i], simd::larger(simd::load(&row.vein[i]), 0.28f * fine));
     simd::store(&tissue.shade[i], 1.0f + 0.05f * mottle + 0.05f * grain + 0.03f * blotch);
   }
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "wilt/core/error.hpp"
+#include "wilt/core/index_lists.hpp"
 #include "wilt/core/parallel.hpp"
 
 namespace wilt {
@@ -72,22 +73,20 @@ struct Permeation::Impl {
 };
 
 void Permeation::Impl::build(int vertex_count, const Edges& edges, const Eigen::VectorXd& lengths) {
-  starts.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
-  for (int e = 0; e < edges.rows(); ++e) {
-    for (int k = 0; k < 2; ++k) ++starts[static_cast<std::size_t>(edges(e, k)) + 1];
-  }
-  for (std::size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
-  neighbours.resize(2 * static_cast<std::size_t>(edges.rows()));
-  rest_lengths.resize(2 * edges.rows());
-  conductance.resize(2 * edges.rows());
+  std::vector<std::pair<int, int>> ends;
+  ends.reserve(static_cast<std::size_t>(edges.size()));
+  for (int end = 0; end < edges.size(); ++end) ends.emplace_back(edges.data()[end], end);
+  const IndexLists ends_of(vertex_count, ends);
+  rest_lengths.resize(edges.size());
+  conductance.resize(edges.size());
   diagonal.resize(vertex_count);
-  std::vector<int> filled(starts.begin(), starts.end() - 1);
-  for (int e = 0; e < edges.rows(); ++e) {
-    for (int k = 0; k < 2; ++k) {
-      const int place = filled[static_cast<std::size_t>(edges(e, k))]++;
-      neighbours[static_cast<std::size_t>(place)] = edges(e, 1 - k);
-      rest_lengths[place] = lengths[e];
+  starts = {0};
+  for (int i = 0; i < vertex_count; ++i) {
+    for (const int end : ends_of[i]) {
+      rest_lengths[static_cast<Eigen::Index>(neighbours.size())] = lengths[end / 2];
+      neighbours.push_back(edges.data()[end ^ 1]);
     }
+    starts.push_back(static_cast<int>(neighbours.size()));
   }
 }
 

@@ -1,11 +1,11 @@
-// Lists of indices, one per owner, in one array (internal).
+// Lists of indices, one per owner, in one array.
 #pragma once
 
 #include <span>
 #include <utility>
 #include <vector>
 
-namespace wilt::detail {
+namespace wilt {
 
 /// What gathers from where: list i holds the indices that were paired with owner i, in the order given.
 class IndexLists {
@@ -29,4 +29,4 @@ class IndexLists {
   std::vector<int> begin_, indices_;
 };
 
-}  // namespace wilt::detail
+}  // namespace wilt
