@@ -11,16 +11,16 @@
 namespace wilt::bench {
 namespace {
 
-void scene(benchmark::State& state) {
+void clip(benchmark::State& state) {
   const Maple maple(static_cast<int>(state.range(0)), "cell");
   for (auto _ : state)
-    benchmark::DoNotOptimize(glb_scene(maple.leaf, maple.venation, maple.config, maple.frames));
+    benchmark::DoNotOptimize(make_clip(maple.leaf, maple.venation, maple.config, maple.frames));
 }
-BENCHMARK(scene)->Arg(2000)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(clip)->Arg(2000)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void bytes(benchmark::State& state) {
   const Maple maple(static_cast<int>(state.range(0)), "cell");
-  const GlbScene made = glb_scene(maple.leaf, maple.venation, maple.config, maple.frames);
+  const Clip made = make_clip(maple.leaf, maple.venation, maple.config, maple.frames);
   std::size_t size = 0;
   for (auto _ : state) size = glb_bytes(made).size();
   state.counters["megabytes"] = 1e-6 * static_cast<double>(size);

@@ -94,7 +94,7 @@ const std::string& ResultFiles::glb() {
   if (glb_.empty()) {
     GlbOptions options;
     options.seconds = withered_.config.clip.seconds;
-    glb_ = glb_bytes(glb_scene(withered_.leaf, withered_.venation, withered_.config, withered_.result.frames),
+    glb_ = glb_bytes(make_clip(withered_.leaf, withered_.venation, withered_.config, withered_.result.frames),
                      options);
   }
   return glb_;

@@ -42,13 +42,13 @@ void write_leaf(const std::string& path, const Leaf& leaf, Terminal& terminal) {
   } catch (const Error& error) {
     if (error.code() != ErrorCode::input) throw;
     terminal.warn(fmt::format("no texture: {}", error.what()));
-    GlbScene scene{leaf, frames};
+    Clip clip{leaf, frames};
     const Vec3 fresh = TissueColours(kind.pigments)({});
-    scene.colours.push_back(fresh.transpose().replicate(leaf.positions.rows(), 1));
-    scene.stalk_colours.push_back(linear_rgb(kind.pigments.stalk));
-    return write_glb(path, scene);
+    clip.colours.push_back(fresh.transpose().replicate(leaf.positions.rows(), 1));
+    clip.stalk_colours.push_back(linear_rgb(kind.pigments.stalk));
+    return write_glb(path, clip);
   }
-  write_glb(path, glb_scene(leaf, venation, config, frames));
+  write_glb(path, make_clip(leaf, venation, config, frames));
 }
 
 void run(const Request& request, const GlobalOptions& options) {

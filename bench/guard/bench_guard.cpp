@@ -83,9 +83,9 @@ void leaf_mesh() {
 
 void glb_write() {
   const Maple maple(500, "paper");
-  GlbScene scene{maple.leaf, maple.frames, &maple.venation};
-  scene.colours.assign(maple.frames.size(), Points3::Constant(maple.leaf.positions.rows(), 3, 0.5));
-  counted([&] { glb_bytes(scene); });
+  Clip clip{maple.leaf, maple.frames, &maple.venation};
+  clip.colours.assign(maple.frames.size(), Points3::Constant(maple.leaf.positions.rows(), 3, 0.5));
+  counted([&] { glb_bytes(clip); });
 }
 
 const std::map<std::string, std::function<void()>> kCases{

@@ -91,7 +91,7 @@ class Stages:
         yield "metrics of a frame, 2k", self.ours("simulation", "metrics")
         yield "texture, 1024 x 1024", self.ours("simulation", "texture/1024")
         yield "relief, 1024 x 1024", self.ours("simulation", "relief/1024")
-        yield "scene of a GLB with its textures, 2k, 26 frames", self.ours("output", "scene/2000")
+        yield "clip of a run with its textures, 2k, 26 frames", self.ours("output", "clip/2000")
         yield "bytes of a GLB, 2k, 26 frames", self.ours("output", "bytes/2000")
         yield "bytes of a GLB, 100k, 26 frames", self.ours("output", "bytes/100000")
         yield "file of 10 MB, flushed", self.ours("output", "file/10000000")

@@ -132,14 +132,14 @@ inline Venation sample_venation(const Leaf& leaf) {
   return venation;
 }
 
-/// All of it, and a scene that refers to it.
+/// All of it, and a clip that refers to it.
 struct Sample {
   Leaf leaf = sample_leaf();
   std::vector<Frame> frames = sample_frames(leaf);
   Venation venation = sample_venation(leaf);
   std::vector<Vec3> stalk_colours = std::vector<Vec3>(frames.size(), Vec3(0.5, 0.4, 0.2));
 
-  GlbScene scene() const {
+  Clip clip() const {
     return {leaf,
             frames,
             &venation,

@@ -54,8 +54,8 @@ TEST(Glb, ReadsBackEveryFrame) {
   test::Sample sample;
   sample.leaf.placement = test::sample_placement();
   const Leaf& leaf = sample.leaf;
-  const GlbScene scene = sample.scene();
-  const GlbFile file = parse_glb(glb_bytes(scene), "sample");
+  const Clip clip = sample.clip();
+  const GlbFile file = parse_glb(glb_bytes(clip), "sample");
   ASSERT_EQ(file.meshes.size(), 2U);
   const GlbMesh& blade = file.meshes[0];
   const GlbMesh& stalk = file.meshes[1];
@@ -85,7 +85,7 @@ TEST(Glb, ReadsBackEveryFrame) {
 // Oracle: analytic. Time is proportional to the iteration: 0, 10, 30, 60, 100 of 100 in 4 s.
 TEST(Glb, KeyTimesAreProportionalToIterations) {
   const test::Sample sample;
-  const GlbFile file = parse_glb(glb_bytes(sample.scene()), "sample");
+  const GlbFile file = parse_glb(glb_bytes(sample.clip()), "sample");
   const std::vector<double> expected{0.0, 0.4, 1.2, 2.4, 4.0};
   ASSERT_EQ(file.times.size(), expected.size());
   for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(file.times[k], expected[k], 4.0 * kEps);
@@ -111,7 +111,7 @@ TEST(Glb, AppliesThePlacementAndThenTurnsYUp) {
 TEST(Glb, SeamVerticesStayTogether) {
   const test::Sample sample;
   const Leaf& leaf = sample.leaf;
-  const GlbMesh blade = parse_glb(glb_bytes(sample.scene()), "sample").meshes[0];
+  const GlbMesh blade = parse_glb(glb_bytes(sample.clip()), "sample").meshes[0];
   int pairs = 0;
   for (int s = leaf.mesh.num_vertices(); s < static_cast<int>(leaf.skin.vertex.size()); ++s, ++pairs) {
     const int twin = leaf.skin.vertex[static_cast<std::size_t>(s)];
@@ -127,12 +127,12 @@ TEST(Glb, SeamVerticesStayTogether) {
 // Oracle: the colours themselves; what is above 1 is clipped.
 TEST(Glb, ColoursComeBackAsGiven) {
   test::Sample sample;
-  GlbScene scene = sample.scene();
+  Clip clip = sample.clip();
   Points3 colours(sample.leaf.mesh.num_vertices(), 3);
   colours.rowwise() = Eigen::RowVector3d(0.5, 0.04, 1.7);
-  scene.colours = {colours};
-  scene.stalk_colours = {};
-  const GlbFile file = parse_glb(glb_bytes(scene), "sample");
+  clip.colours = {colours};
+  clip.stalk_colours = {};
+  const GlbFile file = parse_glb(glb_bytes(clip), "sample");
   ASSERT_EQ(file.meshes[0].colours.size(), 1U);
   EXPECT_NEAR(file.meshes[0].colours[0](3, 0), 0.5, 1e-7);
   EXPECT_NEAR(file.meshes[0].colours[0](3, 1), 0.04, 1e-7);
@@ -143,13 +143,13 @@ TEST(Glb, ColoursComeBackAsGiven) {
 // Oracle: invariance.
 TEST(Glb, TheSameSceneGivesTheSameBytes) {
   const test::Sample one, two;
-  EXPECT_EQ(glb_bytes(one.scene()), glb_bytes(two.scene()));
+  EXPECT_EQ(glb_bytes(one.clip()), glb_bytes(two.clip()));
 }
 
 // Oracle: the JSON that was given, its order and its 64-bit seed included.
 TEST(Glb, KeepsTheConfigurationToTheLastDigit) {
   const test::Sample sample;
-  const GlbFile file = parse_glb(glb_bytes(sample.scene()), "sample");
+  const GlbFile file = parse_glb(glb_bytes(sample.clip()), "sample");
   const auto extras = nlohmann::ordered_json::parse(file.extras);
   EXPECT_EQ(extras["config"].dump(), R"({"seed":18446744073709551615,"iterations":100,"a":{"dt":0.01}})");
   EXPECT_EQ(extras["leaf"]["name"], sample.leaf.name);
@@ -161,7 +161,7 @@ TEST(Glb, KeepsTheConfigurationToTheLastDigit) {
 // Oracle: the blade's positions at the veins' faces; nine decimals of a position and of the weights.
 TEST(Glb, VeinsLieOnTheBlade) {
   const test::Sample sample;
-  const GlbFile file = parse_glb(glb_bytes(sample.scene()), "sample");
+  const GlbFile file = parse_glb(glb_bytes(sample.clip()), "sample");
   ASSERT_EQ(file.veins.size(), 3U);
   EXPECT_EQ(file.veins[2].order, 2);
   for (const GlbVein& vein : file.veins) {
@@ -196,10 +196,10 @@ TEST(Glb, OneFrameIsAMeshThatStandsStill) {
 // Oracle: the bytes that were given stand in the file, named by their kind.
 TEST(Glb, EmbedsATexture) {
   const test::Sample sample;
-  GlbScene scene = sample.scene();
-  scene.texture = "\xff\xd8\xff not quite a picture";
-  const std::string bytes = glb_bytes(scene);
-  EXPECT_NE(bytes.find(scene.texture), std::string::npos);
+  Clip clip = sample.clip();
+  clip.texture = "\xff\xd8\xff not quite a picture";
+  const std::string bytes = glb_bytes(clip);
+  EXPECT_NE(bytes.find(clip.texture), std::string::npos);
   EXPECT_EQ(Json::parse(glb_json(bytes, ""))["images"][0]["mimeType"], "image/jpeg");
 }
 
@@ -207,32 +207,32 @@ TEST(Glb, IsWrittenToAFile) {
   const test::Sample sample;
   const std::string path =
       (std::filesystem::temp_directory_path() / ("wilt_glb_" + std::to_string(::getpid()))).string();
-  write_glb(path, sample.scene());
-  EXPECT_EQ(read_file(path), glb_bytes(sample.scene()));
+  write_glb(path, sample.clip());
+  EXPECT_EQ(read_file(path), glb_bytes(sample.clip()));
   EXPECT_EQ(read_glb(path).iterations.back(), 100);
   std::filesystem::remove(path);
-  EXPECT_THROW(write_glb(path + "/none/leaf.glb", sample.scene()), Error);
+  EXPECT_THROW(write_glb(path + "/none/leaf.glb", sample.clip()), Error);
 }
 
 // Oracle: negative.
 TEST(Glb, RefusesWrongOptionsAndScenes) {
   test::Sample sample;
-  EXPECT_THROW(glb_bytes(sample.scene(), {.seconds = 0.0}), Error);
-  EXPECT_THROW(glb_bytes(sample.scene(), {.stalk_sides = 2}), Error);
-  GlbScene short_colours = sample.scene();
+  EXPECT_THROW(glb_bytes(sample.clip(), {.seconds = 0.0}), Error);
+  EXPECT_THROW(glb_bytes(sample.clip(), {.stalk_sides = 2}), Error);
+  Clip short_colours = sample.clip();
   short_colours.colours.pop_back();
   EXPECT_THROW(glb_bytes(short_colours), std::logic_error);
-  GlbScene broken_config = sample.scene();
+  Clip broken_config = sample.clip();
   broken_config.config = "{";
   EXPECT_THROW(glb_bytes(broken_config), std::logic_error);
   sample.frames[2].positions(3, 1) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(glb_bytes(sample.scene()), std::logic_error);
+  EXPECT_THROW(glb_bytes(sample.clip()), std::logic_error);
 }
 
 // Oracle: negative; each kind of file that is none of ours.
 TEST(Glb, RefusesWhatItDidNotWrite) {
   const test::Sample sample;
-  const std::string bytes = glb_bytes(sample.scene());
+  const std::string bytes = glb_bytes(sample.clip());
   EXPECT_NE(refusal("").find("GLB header"), std::string::npos);
   EXPECT_NE(refusal("v 0 0 0 an OBJ rather than a GLB").find("GLB header"), std::string::npos);
   EXPECT_NE(refusal(bytes.substr(0, bytes.size() / 2)).find("cut off"), std::string::npos);
@@ -261,7 +261,7 @@ TEST(Glb, RefusesWhatItDidNotWrite) {
 // Oracle: negative; what a reader of the frames would stumble over, and other files that it would open.
 TEST(Glb, RefusesWhatCannotBeShown) {
   const test::Sample sample;
-  const std::string bytes = glb_bytes(sample.scene());
+  const std::string bytes = glb_bytes(sample.clip());
   const auto says = [&](const char* part, const std::function<void(Json&)>& change) {
     const std::string message = refusal(changed(bytes, change));
     EXPECT_NE(message.find(part), std::string::npos) << message;
@@ -289,7 +289,7 @@ TEST(Glb, RefusesWhatCannotBeShown) {
 // fixed.
 TEST(Glb, ReaderBearsDamage) {
   const test::Sample sample;
-  const std::string bytes = glb_bytes(sample.scene());
+  const std::string bytes = glb_bytes(sample.clip());
   const int json_size = static_cast<int>(glb_json(bytes, "").size());
   const std::uint64_t seed = 7;
   Random random(seed, "damage");

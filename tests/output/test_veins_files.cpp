@@ -65,9 +65,9 @@ TEST(VeinsJson, HoldsPositionsAndTextureCoordinates) {
 
 // Oracle: analytic; pixel = origin + uv * size.
 TEST(VeinsJson, GivesPixelsInAPhoto) {
-  const Leaf leaf = test::sample_leaf();
-  const Json json =
-      Json::parse(veins_json(leaf, test::sample_venation(leaf), PhotoArea{Vec2(10, 20), Vec2(640, 480)}));
+  Leaf leaf = test::sample_leaf();
+  leaf.photo = std::make_shared<LeafPhoto>(LeafPhoto{{}, {Vec2(10, 20), Vec2(640, 480)}});
+  const Json json = Json::parse(veins_json(leaf, test::sample_venation(leaf)));
   EXPECT_EQ(keys(json["petiole"]), (std::vector<std::string>{"vertex", "position", "uv", "pixel"}));
   const Json& tip = json["tips"][0];
   EXPECT_NEAR(tip["pixel"][0].get<double>(), 10.0 + 640.0 * tip["uv"][0].get<double>(), 1e-12);

@@ -22,21 +22,21 @@ Json rows(const Matrix& matrix) {
   return list;
 }
 
-void write(const std::string& name, const wilt::GlbScene& scene, double seconds) {
+void write(const std::string& name, const wilt::Clip& clip, double seconds) {
   wilt::GlbOptions options;
   options.seconds = seconds;
-  write_glb(name + ".glb", scene, options);
-  const wilt::Leaf& leaf = scene.leaf;
+  write_glb(name + ".glb", clip, options);
+  const wilt::Leaf& leaf = clip.leaf;
   Json frames = Json::array();
-  for (std::size_t k = 0; k < scene.frames.size(); ++k) {
-    const wilt::Frame& frame = scene.frames[k];
+  for (std::size_t k = 0; k < clip.frames.size(); ++k) {
+    const wilt::Frame& frame = clip.frames[k];
     frames.push_back({{"iteration", frame.iteration},
                       {"positions", rows(frame.positions)},
                       {"stalk", rows(frame.stalk)},
                       {"water", rows(frame.water_fraction)}});
-    if (!scene.colours.empty()) frames.back()["colours"] = rows(scene.colours.at(k));
-    if (!scene.stalk_colours.empty())
-      frames.back()["stalk_colour"] = rows(scene.stalk_colours.at(k).transpose());
+    if (!clip.colours.empty()) frames.back()["colours"] = rows(clip.colours.at(k));
+    if (!clip.stalk_colours.empty())
+      frames.back()["stalk_colour"] = rows(clip.stalk_colours.at(k).transpose());
   }
   const Json vertices(std::vector<int>(leaf.skin.vertex.begin(), leaf.skin.vertex.end()));
   const Json dump = {
@@ -59,9 +59,9 @@ int main(int argc, char** argv) {
   const std::string folder = argv[1];
   std::filesystem::create_directories(folder);
   wilt::test::Sample sample;
-  write(folder + "/withering", sample.scene(), 4.0);
+  write(folder + "/withering", sample.clip(), 4.0);
   sample.leaf.placement = wilt::test::sample_placement();
-  write(folder + "/placed", sample.scene(), 2.5);
+  write(folder + "/placed", sample.clip(), 2.5);
   const std::vector<wilt::Frame> rest = rest_frames(sample.leaf);
   write(folder + "/rest", {sample.leaf, rest, nullptr, "{}", {}, {}, ""}, 4.0);
   sample.leaf.stalk = {};

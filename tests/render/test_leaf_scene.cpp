@@ -15,7 +15,7 @@ namespace {
 
 GlbFile sample_file() {
   const test::Sample sample;
-  return parse_glb(glb_bytes(sample.scene()), "sample");
+  return parse_glb(glb_bytes(sample.clip()), "sample");
 }
 
 double distance_error(const Points3& a, const Points3& b, int count) {
@@ -65,7 +65,7 @@ TEST(LeafScene, HasARimAroundTheMargin) {
 // Round trip: maps in a file are maps on the blade, and on nothing else.
 TEST(LeafScene, PutsTheMapsOnTheBlade) {
   const test::Sample sample;
-  GlbScene with_maps = sample.scene();
+  Clip with_maps = sample.clip();
   with_maps.texture = encode_png({2, 1, {255, 0, 0, 0, 255, 0}});
   with_maps.normal_texture = encode_png({1, 2, {128, 128, 255, 128, 128, 255}});
   const GlbFile file = parse_glb(glb_bytes(with_maps), "sample");
@@ -81,7 +81,7 @@ TEST(LeafScene, PutsTheMapsOnTheBlade) {
 // Property: whatever numbers a file holds, there is a scene or an Error; the seed is fixed.
 TEST(LeafScene, BearsDamagedFiles) {
   const test::Sample sample;
-  const std::string bytes = glb_bytes(sample.scene());
+  const std::string bytes = glb_bytes(sample.clip());
   Random random(11, "damage");
   int shown = 0;
   for (int round = 0; round < 200; ++round) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "wilt/core/image.hpp"
 #include "wilt/core/types.hpp"
 #include "wilt/mesh/surface_mesh.hpp"
 
@@ -30,6 +32,18 @@ struct Placement {
   double scale = 1.0;
 };
 
+/// The part of a photo that texture coordinates 0 to 1 span: pixel = origin + uv * size.
+struct PhotoArea {
+  Vec2 origin = Vec2::Zero();
+  Vec2 size = Vec2::Zero();  ///< pixels
+};
+
+/// What a photo shows of a leaf.
+struct LeafPhoto {
+  Image image;  ///< of the area, whose texels it fills; the blade's colours are carried on beyond its margin
+  PhotoArea area;  ///< of the photo that was given
+};
+
 /// A leaf blade with its petiole.
 ///
 /// Leaf frame: the petiole vertex at the origin, x to the right, y towards the apex, z out of the upper
@@ -44,7 +58,8 @@ struct Leaf {
   Stalk stalk;
   Skin skin;
   Placement placement;
-  std::vector<std::string> notes;  ///< what was found, assumed or repaired; shown to the user
+  std::shared_ptr<const LeafPhoto> photo;  ///< of the fresh leaf, in the skin's texture coordinates; or none
+  std::vector<std::string> notes;          ///< what was found, assumed or repaired; shown to the user
 };
 
 /// Distance from the petiole vertex to the farthest vertex, metres.

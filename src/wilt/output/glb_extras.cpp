@@ -23,12 +23,12 @@ Json rounded(const Points3& points) {
   return rows;
 }
 
-Json veins_json(const GlbScene& scene) {
+Json veins_json(const Clip& clip) {
   Json veins = Json::array();
-  if (scene.venation == nullptr) return veins;
-  const std::vector<RestVein> lines = vein_lines(scene.leaf, *scene.venation);
+  if (clip.venation == nullptr) return veins;
+  const std::vector<RestVein> lines = vein_lines(clip.leaf, *clip.venation);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::vector<SurfacePoint>& path = scene.venation->veins[i].path.points;
+    const std::vector<SurfacePoint>& path = clip.venation->veins[i].path.points;
     std::vector<int> faces;
     Points3 barycentric(static_cast<int>(path.size()), 3);
     for (const SurfacePoint& point : path) {
@@ -36,7 +36,7 @@ Json veins_json(const GlbScene& scene) {
       faces.push_back(point.face);
     }
     veins.push_back({{"order", lines[i].order},
-                     {"positions", rounded(file_points(scene.leaf.placement, lines[i].positions))},
+                     {"positions", rounded(file_points(clip.leaf.placement, lines[i].positions))},
                      {"faces", faces},
                      {"barycentric", rounded(barycentric)}});
   }
@@ -45,23 +45,23 @@ Json veins_json(const GlbScene& scene) {
 
 }  // namespace
 
-std::string glb_extras(const GlbScene& scene) {
+std::string glb_extras(const Clip& clip) {
   Json frames = Json::array();
   Json dryness = Json::array();
-  for (const Frame& frame : scene.frames) {
+  for (const Frame& frame : clip.frames) {
     frames.push_back(frame.iteration);
     dryness.push_back(frame.dryness.size() > 0 ? std::round(frame.dryness.mean() * 1e6) / 1e6 : 0.0);
   }
-  const Leaf& leaf = scene.leaf;
+  const Leaf& leaf = clip.leaf;
   const Json extras = {{"version", version()},
-                       {"config", Json::parse(scene.config)},
+                       {"config", Json::parse(clip.config)},
                        {"leaf", {{"name", leaf.name}, {"species", leaf.species}, {"seed", leaf.seed}}},
                        {"units", unit_name(leaf.placement)},
                        {"metres_per_unit", metres_per_unit(leaf.placement)},
                        {"up", "Y"},
                        {"frames", frames},
                        {"dryness", dryness},
-                       {"veins", veins_json(scene)}};
+                       {"veins", veins_json(clip)}};
   return extras.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

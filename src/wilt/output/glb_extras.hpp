@@ -9,6 +9,6 @@ namespace wilt {
 
 /// JSON text of asset.extras.wilt; glb_bytes() lists its keys. Text that is not UTF-8 gets replacement
 /// characters.
-std::string glb_extras(const GlbScene& scene);
+std::string glb_extras(const Clip& clip);
 
 }  // namespace wilt

@@ -5,36 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "wilt/leaf/leaf.hpp"
-#include "wilt/simulation/config.hpp"
-#include "wilt/simulation/result.hpp"
-#include "wilt/venation/venation.hpp"
+#include "wilt/core/types.hpp"
+#include "wilt/output/clip.hpp"
 
 namespace wilt {
-
-/// What goes into a GLB. Only refers to `leaf`, `frames` and `venation`: they must outlive it.
-struct GlbScene {
-  const Leaf& leaf;
-  const std::vector<Frame>& frames;    ///< >= 1, iterations ascending; the first is at rest
-  const Venation* venation = nullptr;  ///< its veins go into asset.extras, at rest
-  std::string config = "{}";           ///< JSON text of the resolved configuration
-  /// Linear RGB, 0 to 1 (clipped), #V x 3 of the blade, which multiplies the texture: none (white), one
-  /// (shown throughout: the final state), or one per frame (colour morphs).
-  std::vector<Points3> colours{};
-  std::vector<Vec3> stalk_colours{};  ///< linear RGB, of the whole stalk: none, one, or one per frame
-  std::string texture{};              ///< bytes of a PNG or JPEG that multiplies the colours; empty: white
-  std::string normal_texture{};       ///< the same of a tangent-space normal map of the blade; empty: none
-};
-
-/// The scene of a run: its frames with the colours of their states, veins and configuration. Refers to
-/// `leaf`, `venation` and `frames`, which must have a dryness.
-///
-/// With C_k the blade's colours at frame k (senescence.hpp), the texture holds the last frame's colour times
-/// m >= 1 per channel, with its fine detail, and COLOR_0 of frame k is C_k / (C_last m): texture x COLOR_0 is
-/// the colour of that frame, and COLOR_0 of the last one is 1 / m throughout. Without a texture
-/// (`texture.size` 0, or texture coordinates that cannot carry one) COLOR_0 is C_k.
-GlbScene glb_scene(const Leaf& leaf, const Venation& venation, const Config& config,
-                   const std::vector<Frame>& frames);
 
 struct GlbOptions {
   double seconds = 4.0;   ///< length of the clip, > 0; time is proportional to the iteration
@@ -42,10 +16,7 @@ struct GlbOptions {
   void validate() const;  ///< throws Error{configuration}
 };
 
-/// The leaf alone, as the one frame of a scene: rest positions and stalk, fresh (dryness 0), no water.
-std::vector<Frame> rest_frames(const Leaf& leaf);
-
-/// The scene as bytes of a glTF 2.0 binary.
+/// The clip as bytes of a glTF 2.0 binary.
 ///
 /// Nodes "blade" (the leaf's skin: POSITION, NORMAL, TEXCOORD_0, COLOR_0 linear, _WATER = w / m at the last
 /// frame) and "stalk" (a tube, when the leaf has one). Of several frames each is a morph target (POSITION,
@@ -54,13 +25,13 @@ std::vector<Frame> rest_frames(const Leaf& leaf);
 /// the colours of the last one, which readers without colour morphs show; the default weights show the last.
 /// Coordinates as in coordinates.hpp. asset.extras.wilt: version, config, leaf, units, metres_per_unit, up,
 /// frames (iterations), dryness (mean, per frame), veins (order, positions, and the face of the blade and the
-/// barycentric coordinates of every point, so that they can follow the blade). The same scene gives the same
+/// barycentric coordinates of every point, so that they can follow the blade). The same clip gives the same
 /// bytes. Throws Error{output} above the 4 GB of the format, std::logic_error for wrong sizes or positions
 /// that are not finite. O(#frames #V).
-std::string glb_bytes(const GlbScene& scene, const GlbOptions& options = {});
+std::string glb_bytes(const Clip& clip, const GlbOptions& options = {});
 
 /// The same into a file, by write_file().
-void write_glb(const std::string& path, const GlbScene& scene, const GlbOptions& options = {});
+void write_glb(const std::string& path, const Clip& clip, const GlbOptions& options = {});
 
 /// A mesh of a GLB that wilt wrote; every frame as absolute values. Coordinates of the file, Y up.
 struct GlbMesh {

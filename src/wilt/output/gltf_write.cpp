@@ -224,12 +224,12 @@ int add_texture(Builder& builder, const std::string& bytes, const char* name) {
   return static_cast<int>(builder.model.textures.size()) - 1;
 }
 
-void add_textures(Builder& builder, const GlbScene& scene, int material) {
-  const int colour = add_texture(builder, scene.texture.empty() ? white_pixel() : scene.texture, "colour");
+void add_textures(Builder& builder, const Clip& clip, int material) {
+  const int colour = add_texture(builder, clip.texture.empty() ? white_pixel() : clip.texture, "colour");
   tinygltf::Material& blade = builder.model.materials[static_cast<std::size_t>(material)];
   blade.pbrMetallicRoughness.baseColorTexture.index = colour;
-  if (!scene.normal_texture.empty())
-    blade.normalTexture.index = add_texture(builder, scene.normal_texture, "relief");
+  if (!clip.normal_texture.empty())
+    blade.normalTexture.index = add_texture(builder, clip.normal_texture, "relief");
 }
 
 // tinygltf writes the model. The extras are put in here, since its values have no 64-bit integers (seeds) and
@@ -244,30 +244,30 @@ std::string serialise(Builder& builder, const std::string& extras) {
 }
 
 // Of the file, or a little more, so that it need not move as it grows.
-std::size_t expected_size(const GlbScene& scene) {
-  const std::size_t corners = scene.leaf.skin.vertex.size(), frames = scene.frames.size();
+std::size_t expected_size(const Clip& clip) {
+  const std::size_t corners = clip.leaf.skin.vertex.size(), frames = clip.frames.size();
   const std::size_t per_shape = 6 * sizeof(float), per_colour = 3 * sizeof(float);
-  return corners * ((frames + 1) * per_shape + (scene.colours.size() + 1) * per_colour + 3 * sizeof(float)) +
-         static_cast<std::size_t>(scene.leaf.skin.faces.size()) * sizeof(std::uint32_t) +
-         scene.texture.size() + scene.normal_texture.size() + (frames + 4) * (std::size_t{1} << 16);
+  return corners * ((frames + 1) * per_shape + (clip.colours.size() + 1) * per_colour + 3 * sizeof(float)) +
+         static_cast<std::size_t>(clip.leaf.skin.faces.size()) * sizeof(std::uint32_t) + clip.texture.size() +
+         clip.normal_texture.size() + (frames + 4) * (std::size_t{1} << 16);
 }
 
-void check_scene(const GlbScene& scene) {
-  const std::size_t frames = scene.frames.size();
+void check_scene(const Clip& clip) {
+  const std::size_t frames = clip.frames.size();
   WILT_CHECK(frames >= 1, frames);
-  WILT_CHECK(scene.colours.size() <= 1 || scene.colours.size() == frames, scene.colours.size(), frames);
-  WILT_CHECK(scene.stalk_colours.size() <= 1 || scene.stalk_colours.size() == frames,
-             scene.stalk_colours.size(), frames);
-  const int vertices = scene.leaf.mesh.num_vertices();
-  WILT_CHECK(Json::accept(scene.config), scene.config);
-  for (const Points3& colours : scene.colours)
+  WILT_CHECK(clip.colours.size() <= 1 || clip.colours.size() == frames, clip.colours.size(), frames);
+  WILT_CHECK(clip.stalk_colours.size() <= 1 || clip.stalk_colours.size() == frames, clip.stalk_colours.size(),
+             frames);
+  const int vertices = clip.leaf.mesh.num_vertices();
+  WILT_CHECK(Json::accept(clip.config), clip.config);
+  for (const Points3& colours : clip.colours)
     WILT_CHECK(colours.rows() == vertices, colours.rows(), vertices);
   for (std::size_t k = 0; k < frames; ++k) {
-    const Frame& frame = scene.frames[k];
+    const Frame& frame = clip.frames[k];
     WILT_CHECK(frame.positions.rows() == vertices, k, frame.positions.rows(), vertices);
     WILT_CHECK(frame.positions.allFinite() && frame.stalk.allFinite(), k, frame.iteration);
-    WILT_CHECK(frame.stalk.rows() == scene.frames[0].stalk.rows(), k, frame.stalk.rows());
-    WILT_CHECK(k == 0 || frame.iteration > scene.frames[k - 1].iteration, k, frame.iteration);
+    WILT_CHECK(frame.stalk.rows() == clip.frames[0].stalk.rows(), k, frame.stalk.rows());
+    WILT_CHECK(k == 0 || frame.iteration > clip.frames[k - 1].iteration, k, frame.iteration);
   }
 }
 
@@ -292,27 +292,27 @@ std::vector<Frame> rest_frames(const Leaf& leaf) {
   return {frame};
 }
 
-std::string glb_bytes(const GlbScene& scene, const GlbOptions& options) {
+std::string glb_bytes(const Clip& clip, const GlbOptions& options) {
   options.validate();
-  check_scene(scene);
+  check_scene(clip);
   Builder builder;
-  const std::string extras = glb_extras(scene);
-  builder.binary.reserve(expected_size(scene) + 2 * extras.size());
+  const std::string extras = glb_extras(clip);
+  builder.binary.reserve(expected_size(clip) + 2 * extras.size());
   builder.model.asset.generator = fmt::format("wilt {}", version());
   builder.model.asset.version = "2.0";
   builder.model.scenes.emplace_back();
   builder.model.defaultScene = 0;
   const int blade = add_material(builder, "blade");
-  add_mesh(builder, moving_blade(scene), scene.frames, blade);
-  add_textures(builder, scene, blade);
-  if (scene.frames.front().stalk.rows() >= 2)
-    add_mesh(builder, moving_stalk(scene, options.stalk_sides), scene.frames, add_material(builder, "stalk"));
-  add_animation(builder, scene.frames, options.seconds);
+  add_mesh(builder, moving_blade(clip), clip.frames, blade);
+  add_textures(builder, clip, blade);
+  if (clip.frames.front().stalk.rows() >= 2)
+    add_mesh(builder, moving_stalk(clip, options.stalk_sides), clip.frames, add_material(builder, "stalk"));
+  add_animation(builder, clip.frames, options.seconds);
   return serialise(builder, extras);
 }
 
-void write_glb(const std::string& path, const GlbScene& scene, const GlbOptions& options) {
-  write_file(path, glb_bytes(scene, options));
+void write_glb(const std::string& path, const Clip& clip, const GlbOptions& options) {
+  write_file(path, glb_bytes(clip, options));
 }
 
 }  // namespace wilt

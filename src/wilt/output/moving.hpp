@@ -24,10 +24,10 @@ struct Moving {
   std::function<Points3(int frame)> colours;
 };
 
-/// The leaf's skin. Refers to the scene.
-Moving moving_blade(const GlbScene& scene);
+/// The leaf's skin. Refers to the clip.
+Moving moving_blade(const Clip& clip);
 
-/// The stalk as a tube. Refers to the scene, whose frames have a stalk of two points or more.
-Moving moving_stalk(const GlbScene& scene, int sides);
+/// The stalk as a tube. Refers to the clip, whose frames have a stalk of two points or more.
+Moving moving_stalk(const Clip& clip, int sides);
 
 }  // namespace wilt

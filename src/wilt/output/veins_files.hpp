@@ -1,7 +1,6 @@
 // The veins of a leaf as files: JSON for programs, SVG to look at, OBJ for 3D tools.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "wilt/leaf/leaf.hpp"
@@ -9,20 +8,14 @@
 
 namespace wilt {
 
-/// The part of a photo that the texture coordinates 0 to 1 span: pixel = origin + uv * size.
-struct PhotoArea {
-  Vec2 origin = Vec2::Zero();
-  Vec2 size = Vec2::Zero();  ///< pixels
-};
-
 /// {"leaf": {"vertices", "faces", "length", "boundary_vertices"}, "petiole": {"vertex", "position", "uv",
 /// "pixel"}, "margin": {"s", "d"}, "tips": [{"vertex", "position", "uv", "pixel", "s", "d", "prominence"}],
 /// "veins": [{"order", "tip", "length", "positions", "uv"}]}.
 ///
 /// Lengths (length, s, d, prominence) in metres; positions at rest in the coordinates of coordinates.hpp, as
-/// in the GLB; uv with the origin top left; "pixel" only with a photo; "tip" only for primary veins.
-std::string veins_json(const Leaf& leaf, const Venation& venation,
-                       const std::optional<PhotoArea>& photo = std::nullopt);
+/// in the GLB; uv with the origin top left; "pixel" only of a leaf with a photo; "tip" only for primary
+/// veins.
+std::string veins_json(const Leaf& leaf, const Venation& venation);
 
 /// A drawing of the leaf at rest seen from above, 1 unit = 1 mm: outline (holes too), stalk, tapering veins
 /// (secondary below primary), numbered tips.

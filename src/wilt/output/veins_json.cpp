@@ -25,11 +25,14 @@ Json rows(const Rows& values) {
 }
 
 // "vertex", "position", "uv" and, in a photo, "pixel".
-Json vertex_json(const Leaf& leaf, VertexId vertex, const std::optional<PhotoArea>& photo) {
+Json vertex_json(const Leaf& leaf, VertexId vertex) {
   const Vec2 uv = vertex_uv(leaf, vertex);
   const Points3 position = file_points(leaf.placement, leaf.positions.row(vertex));
   Json json = {{"vertex", int(vertex)}, {"position", numbers(position)}, {"uv", numbers(uv)}};
-  if (photo) json["pixel"] = numbers((photo->origin + uv.cwiseProduct(photo->size)).eval());
+  if (leaf.photo) {
+    const PhotoArea& area = leaf.photo->area;
+    json["pixel"] = numbers((area.origin + uv.cwiseProduct(area.size)).eval());
+  }
   return json;
 }
 
@@ -44,10 +47,10 @@ Json leaf_json(const Leaf& leaf) {
 
 }  // namespace
 
-std::string veins_json(const Leaf& leaf, const Venation& venation, const std::optional<PhotoArea>& photo) {
+std::string veins_json(const Leaf& leaf, const Venation& venation) {
   Json tips = Json::array();
   for (const Tip& tip : venation.tips) {
-    Json json = vertex_json(leaf, tip.vertex, photo);
+    Json json = vertex_json(leaf, tip.vertex);
     json["s"] = tip.s;
     json["d"] = tip.d;
     json["prominence"] = tip.prominence;
@@ -64,7 +67,7 @@ std::string veins_json(const Leaf& leaf, const Venation& venation, const std::op
     veins.push_back(std::move(json));
   }
   const Json document = {{"leaf", leaf_json(leaf)},
-                         {"petiole", vertex_json(leaf, leaf.petiole, photo)},
+                         {"petiole", vertex_json(leaf, leaf.petiole)},
                          {"margin", {{"s", numbers(venation.margin.s)}, {"d", numbers(venation.margin.d)}}},
                          {"tips", std::move(tips)},
                          {"veins", std::move(veins)}};

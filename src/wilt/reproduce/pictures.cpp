@@ -27,7 +27,7 @@ GlbFile glb_of(const Experiment& experiment) {
   const Subject& subject = experiment.subject;
   Config config = experiment.config;
   config.texture.size = kTexels;
-  return parse_glb(glb_bytes(glb_scene(subject.leaf, subject.venation, config, experiment.result.frames)),
+  return parse_glb(glb_bytes(make_clip(subject.leaf, subject.venation, config, experiment.result.frames)),
                    "the leaf");
 }
 

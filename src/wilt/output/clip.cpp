@@ -30,33 +30,33 @@ Vec3 texture_gain(const std::vector<Points3>& colours) {
 
 }  // namespace
 
-GlbScene glb_scene(const Leaf& leaf, const Venation& venation, const Config& config,
-                   const std::vector<Frame>& frames) {
+Clip make_clip(const Leaf& leaf, const Venation& venation, const Config& config,
+               const std::vector<Frame>& frames) {
   const Pigmentation& pigments = species(config.species).pigments;
-  GlbScene scene{leaf, frames};
-  scene.venation = &venation;
-  scene.config = to_json(config);
+  Clip clip{leaf, frames};
+  clip.venation = &venation;
+  clip.config = to_json(config);
   const TissueColours tissue(pigments);
   const SenescencePattern pattern = senescence_pattern(leaf, venation, pigments);
   const Vec3 dead = tissue({1.0, 0.0, 0.0});
   for (const Frame& frame : frames) {
-    scene.colours.push_back(leaf_colours(pattern, tissue, frame.dryness));
+    clip.colours.push_back(leaf_colours(pattern, tissue, frame.dryness));
     const double dry = kStalkDries * frame.dryness.mean();
-    scene.stalk_colours.push_back((1.0 - dry) * linear_rgb(pigments.stalk) + dry * kStalkShade * dead);
+    clip.stalk_colours.push_back((1.0 - dry) * linear_rgb(pigments.stalk) + dry * kStalkShade * dead);
   }
-  const Vec3 gain = texture_gain(scene.colours);
+  const Vec3 gain = texture_gain(clip.colours);
   const auto texels = BladeTexels::make(leaf, venation, static_cast<int>(config.texture.size));
-  if (!texels) return scene;
+  if (!texels) return clip;
   const Eigen::VectorXd& dryness = frames.back().dryness;
   const std::array<Image, 2> maps{leaf_texture(*texels, pattern, tissue, dryness, gain),
                                   leaf_relief(*texels, dryness)};
-  const std::array<std::string*, 2> encoded{&scene.texture, &scene.normal_texture};
+  const std::array<std::string*, 2> encoded{&clip.texture, &clip.normal_texture};
   parallel_for(2, 1, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) *encoded[k] = encode_jpeg(maps[k]);
   });
-  const Points3 shown = scene.colours.back().cwiseMax(kDarkest) * gain.asDiagonal();
-  for (Points3& frame : scene.colours) frame = frame.cwiseMax(kDarkest).cwiseQuotient(shown).cwiseMin(1.0);
-  return scene;
+  const Points3 shown = clip.colours.back().cwiseMax(kDarkest) * gain.asDiagonal();
+  for (Points3& frame : clip.colours) frame = frame.cwiseMax(kDarkest).cwiseQuotient(shown).cwiseMin(1.0);
+  return clip;
 }
 
 }  // namespace wilt

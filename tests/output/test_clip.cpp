@@ -31,21 +31,21 @@ struct Case {
 
 // Oracle: the colours of the states. COLOR_0 over COLOR_0 of the last frame is C_k over C_last, wherever
 // nothing was clipped; the last COLOR_0 is one constant; a single-colour reader sees the last frame.
-TEST(GlbSceneOfARun, TextureTimesColourIsTheFramesColour) {
+TEST(ClipOfARun, TextureTimesColourIsTheFramesColour) {
   const Case run;
-  const GlbScene scene = glb_scene(run.leaf, run.venation, run.config, run.frames);
+  const Clip clip = make_clip(run.leaf, run.venation, run.config, run.frames);
   const Pigmentation& pigments = species("grape").pigments;
   const SenescencePattern pattern = senescence_pattern(run.leaf, run.venation, pigments);
   const TissueColours tissue(pigments);
-  ASSERT_EQ(scene.colours.size(), 3u);
-  const Points3& last = scene.colours.back();
+  ASSERT_EQ(clip.colours.size(), 3u);
+  const Points3& last = clip.colours.back();
   for (int v = 1; v < last.rows(); ++v) EXPECT_LT((last.row(v) - last.row(0)).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_LE(last.maxCoeff(), 1.0);
   const Points3 dry = leaf_colours(pattern, tissue, run.frames.back().dryness);
   for (std::size_t k = 0; k < 3; ++k) {
     const Points3 state = leaf_colours(pattern, tissue, run.frames[k].dryness);
     for (int i = 0; i < state.size(); ++i) {
-      const double shown = scene.colours[k].data()[i];
+      const double shown = clip.colours[k].data()[i];
       EXPECT_GE(shown, 0.0);
       EXPECT_LE(shown, 1.0);
       if (shown < 1.0 && dry.data()[i] > 0.01 && state.data()[i] > 0.01) {
@@ -57,11 +57,11 @@ TEST(GlbSceneOfARun, TextureTimesColourIsTheFramesColour) {
 
 // Oracle: the bytes that were written; they are a picture of the size that was asked for, and frames come
 // back from the file as given.
-TEST(GlbSceneOfARun, CarriesItsTextureThroughTheFile) {
+TEST(ClipOfARun, CarriesItsTextureThroughTheFile) {
   const Case run;
-  const GlbScene scene = glb_scene(run.leaf, run.venation, run.config, run.frames);
-  const GlbFile file = parse_glb(glb_bytes(scene), "grape");
-  EXPECT_EQ(file.texture, scene.texture);
+  const Clip clip = make_clip(run.leaf, run.venation, run.config, run.frames);
+  const GlbFile file = parse_glb(glb_bytes(clip), "grape");
+  EXPECT_EQ(file.texture, clip.texture);
   const Image picture = decode_image(file.texture);
   // Texture x COLOR_0 is the colour of each frame, on the whole: veins and spots move the mean by some
   // percent.
@@ -77,7 +77,7 @@ TEST(GlbSceneOfARun, CarriesItsTextureThroughTheFile) {
   }
   const Points3 last = leaf_colours(senescence_pattern(run.leaf, run.venation, pigments),
                                     TissueColours(pigments), run.frames.back().dryness);
-  const Vec3 factor = scene.colours.back().colwise().mean().transpose();
+  const Vec3 factor = clip.colours.back().colwise().mean().transpose();
   for (int c = 0; c < 3; ++c) {
     const double shown = texture[c] / covered * factor[c], state = last.col(c).mean();
     EXPECT_NEAR(shown / state, 1.0, 0.25) << c;
@@ -88,14 +88,14 @@ TEST(GlbSceneOfARun, CarriesItsTextureThroughTheFile) {
 }
 
 // Oracle: the colours of the states themselves.
-TEST(GlbSceneOfARun, HasColoursPerVertexWithoutATexture) {
+TEST(ClipOfARun, HasColoursPerVertexWithoutATexture) {
   Case run;
   run.config.texture.size = 0;
-  const GlbScene scene = glb_scene(run.leaf, run.venation, run.config, run.frames);
-  EXPECT_TRUE(scene.texture.empty());
+  const Clip clip = make_clip(run.leaf, run.venation, run.config, run.frames);
+  EXPECT_TRUE(clip.texture.empty());
   const Pigmentation& pigments = species("grape").pigments;
-  EXPECT_EQ(scene.colours[1], leaf_colours(senescence_pattern(run.leaf, run.venation, pigments),
-                                           TissueColours(pigments), run.frames[1].dryness));
+  EXPECT_EQ(clip.colours[1], leaf_colours(senescence_pattern(run.leaf, run.venation, pigments),
+                                          TissueColours(pigments), run.frames[1].dryness));
 }
 
 }  // namespace
