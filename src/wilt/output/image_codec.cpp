@@ -17,10 +17,13 @@
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
+#define STB_IMAGE_RESIZE_STATIC
+#define STB_IMAGE_RESIZE_IMPLEMENTATION
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #pragma GCC diagnostic ignored "-Wunused-function"
 #include <stb/stb_image.h>
+#include <stb/stb_image_resize.h>
 #include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 
@@ -83,6 +86,16 @@ Image decode_image(std::string_view bytes) {
   image.rgb.assign(pixels, pixels + count);
   stbi_image_free(pixels);
   return image;
+}
+
+Image resized(const Image& image, int width, int height) {
+  check_size(image);
+  if (image.width == width && image.height == height) return image;
+  Image result{width, height, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width) * height)};
+  const int done = stbir_resize_uint8_srgb(image.rgb.data(), image.width, image.height, 0, result.rgb.data(),
+                                           width, height, 0, 3, STBIR_ALPHA_CHANNEL_NONE, 0);
+  WILT_CHECK(done == 1, width, height);
+  return result;
 }
 
 bool is_picture_path(const std::string& path) {

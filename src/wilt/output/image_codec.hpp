@@ -19,6 +19,9 @@ std::string encode_png(const Image& image);
 /// neither, or damaged.
 Image decode_image(std::string_view bytes);
 
+/// The picture at another size, filtered in linear light; its own at its own size.
+Image resized(const Image& image, int width, int height);
+
 /// Whether the name ends in .png, .jpg or .jpeg.
 bool is_picture_path(const std::string& path);
 
