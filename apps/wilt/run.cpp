@@ -8,8 +8,8 @@
 #include "wilt/core/error.hpp"
 #include "wilt/output/file.hpp"
 #include "wilt/output/gltf.hpp"
-#include "wilt/output/image_codec.hpp"
 #include "wilt/output/obj.hpp"
+#include "wilt/output/picture_file.hpp"
 #include "wilt/render/picture.hpp"
 #include "wilt/simulation/simulate.hpp"
 
