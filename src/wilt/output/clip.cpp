@@ -51,7 +51,7 @@ void set_maps(Clip& clip, const Image& colour, const Image& relief) {
 
 // COLOR_0 by frame: what the texture, whose mean colours are `shown`, is multiplied by.
 void divide_colours(std::vector<Points3>& colours, const Points3& shown) {
-  for (Points3& frame : colours) frame = frame.cwiseMax(kDarkest).cwiseQuotient(shown).cwiseMin(1.0);
+  for (Points3& frame : colours) frame = frame.cwiseQuotient(shown).cwiseMin(1.0);
 }
 
 void colour_by_species(const Palette& palette, const std::optional<BladeTexels>& texels, Clip& clip) {
@@ -62,8 +62,8 @@ void colour_by_species(const Palette& palette, const std::optional<BladeTexels>&
   const Eigen::VectorXd& dryness = clip.frames.back().dryness;
   set_maps(clip, leaf_texture(*texels, palette.pattern, palette.tissue, dryness, gain),
            leaf_relief(*texels, dryness));
-  const Points3 shown = clip.colours.back().cwiseMax(kDarkest) * gain.asDiagonal();
-  divide_colours(clip.colours, shown);
+  for (Points3& frame : clip.colours) frame = frame.cwiseMax(kDarkest);
+  divide_colours(clip.colours, clip.colours.back() * gain.asDiagonal());
 }
 
 // What the texture's mean colours may be: brighter than the last frame's so that no frame asks for a vertex
@@ -71,6 +71,14 @@ void colour_by_species(const Palette& palette, const std::optional<BladeTexels>&
 Points3 texture_level(const std::vector<Points3>& colours, const PhotoTissue& tissue) {
   const Points3 room = tissue.colour.cwiseQuotient(tissue.brightest);
   return (colours.back() * texture_gain(colours).asDiagonal()).cwiseMin(room).cwiseMax(tissue.colour);
+}
+
+// Darkens what is brighter than the texture can show; its hue stays.
+void limit_colours(std::vector<Points3>& colours, const Points3& most) {
+  for (Points3& frame : colours) {
+    for (Eigen::Index v = 0; v < frame.rows(); ++v)
+      frame.row(v) *= std::min(most.row(v).cwiseQuotient(frame.row(v)).minCoeff(), 1.0);
+  }
 }
 
 // The photo's colour where the stalk begins.
@@ -88,13 +96,15 @@ Vec3 stalk_colour(const Leaf& leaf, const PhotoTissue& tissue) {
 }
 
 /// The stalk's colour in the fresh leaf.
-Vec3 colour_by_photo(const Palette& palette, const BladeTexels& texels, Clip& clip) {
+Vec3 colour_by_photo(const Palette& palette, const BladeTexels& texels, bool textured, Clip& clip) {
   const Image photo = resized(clip.leaf.photo->image, texels.raster().size, texels.raster().size);
   const PhotoTissue tissue = photo_tissue(texels, photo, palette.pattern, palette.tissue);
   for (const Frame& frame : clip.frames)
     clip.colours.push_back(aged_colours(tissue, palette.pattern, palette.tissue, frame.dryness));
   const Vec3 stalk = stalk_colour(clip.leaf, tissue);
+  if (!textured) return stalk;
   const Points3 level = texture_level(clip.colours, tissue);
+  limit_colours(clip.colours, level);
   divide_colours(clip.colours, level);
   const Eigen::VectorXd& dryness = clip.frames.back().dryness;
   set_maps(clip,
@@ -104,12 +114,13 @@ Vec3 colour_by_photo(const Palette& palette, const BladeTexels& texels, Clip& cl
   return stalk;
 }
 
-// Texels on a side. A photo keeps its own, up to twice of what a drawn texture has.
-int texture_size(const Leaf& leaf, std::int64_t setting) {
-  const int size = static_cast<int>(setting);
-  if (!leaf.photo) return size;
-  const Image& photo = leaf.photo->image;
-  return std::min(std::max(photo.width, photo.height), 2 * size);
+// Texels on a side. A photo keeps its own, up to twice of what a drawn texture has; it is looked at even
+// where no texture is asked for.
+int texels_on_a_side(const Leaf& leaf, std::int64_t setting) {
+  constexpr std::int64_t kUntextured = 512;
+  if (!leaf.photo) return static_cast<int>(setting);
+  const std::int64_t own = std::max(leaf.photo->image.width, leaf.photo->image.height);
+  return static_cast<int>(std::min(own, setting > 0 ? 2 * setting : kUntextured));
 }
 
 }  // namespace
@@ -121,10 +132,10 @@ Clip make_clip(const Leaf& leaf, const Venation& venation, const Config& config,
   clip.venation = &venation;
   clip.config = to_json(config);
   const Palette palette(leaf, venation, pigments);
-  const auto texels = BladeTexels::make(leaf, venation, texture_size(leaf, config.texture.size));
+  const auto texels = BladeTexels::make(leaf, venation, texels_on_a_side(leaf, config.texture.size));
   Vec3 fresh = linear_rgb(pigments.stalk);
   if (leaf.photo && texels) {
-    fresh = colour_by_photo(palette, *texels, clip);
+    fresh = colour_by_photo(palette, *texels, config.texture.size > 0, clip);
   } else {
     colour_by_species(palette, texels, clip);
   }

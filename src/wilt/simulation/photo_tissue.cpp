@@ -22,7 +22,7 @@ constexpr int kAges = 93, kReds = 5;  // that are tried
 constexpr double kBrightestOf = 2.5;  // standard deviations above the mean
 constexpr double kFaintest = 3.0;     // of 255: darker means are not told apart
 constexpr double kHueFades = 0.85;    // share of the light's and camera's hue that goes with the pigments
-constexpr double kLightKept = 0.6;    // power of its brightness that stays
+constexpr double kLightKept = 0.4;    // power of its brightness that stays
 
 // Steps of 255 by which texture x vertex colour may miss the photo; blue weighs a tenth of green to the eye.
 constexpr std::array<double, 3> kSlack{1.5, 1.5, 5.5};
@@ -97,22 +97,26 @@ class AroundVertices {
     }
   }
 
-  /// Linear colour, `deviations` above the mean.
-  Points3 linear(double deviations) const {
+  Points3 mean() const { return linear(0.0, Vec3::Zero()); }
+  /// Of what the texture must hold.
+  Points3 brightest() const { return linear(kBrightestOf, Vec3(kSlack[0], kSlack[1], kSlack[2])); }
+
+ private:
+  // Linear colour, `deviations` above the mean and `less` below that, but never below the mean.
+  Points3 linear(double deviations, const Vec3& less) const {
     Points3 result(count_, 3);
     for (Eigen::Index v = 0; v < count_; ++v) {
       const Sums& sums = sums_[static_cast<std::size_t>(v)];
       const Vec3 mean = sums.value / sums.weight;
       const Vec3 spread = (sums.square / sums.weight - mean.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
       for (int c = 0; c < 3; ++c) {
-        const double encoded = mean[c] + deviations * spread[c];
+        const double encoded = mean[c] + std::max(deviations * spread[c] - less[c], 0.0);
         result(v, c) = decode_srgb(std::clamp(encoded, kFaintest, 255.0) / 255.0);
       }
     }
     return result;
   }
 
- private:
   static constexpr double kLittle = 1e-3;
   struct Sums {
     double weight = 0.0;
@@ -131,16 +135,73 @@ class AroundVertices {
   std::vector<Sums> sums_ = std::vector<Sums>(static_cast<std::size_t>(count_));
 };
 
+// Share of the photo's own hue that went with the green.
 double gone(double age) {
-  return smooth_step(0.1, 1.0, age);
+  return smooth_step(0.08, 0.8, age);
 }
+
+// Linear light of bytes moved by a number of steps.
+class Decoder {
+ public:
+  explicit Decoder(double moved) {
+    for (std::size_t b = 0; b < table_.size(); ++b)
+      table_[b] = decode_srgb(std::clamp(static_cast<double>(b) + moved, 0.0, 255.0) / 255.0);
+  }
+  double operator()(std::uint8_t byte) const { return table_[byte]; }
+
+ private:
+  std::array<double, 256> table_{};
+};
+
+class PhotoPainter {
+ public:
+  PhotoPainter(const BladeTexels& texels, const Image& photo, const PhotoTissue& tissue,
+               const PhotoLevels& levels, const Eigen::VectorXd& faded)
+      : texels_(texels), photo_(photo), tissue_(tissue), levels_(levels), faded_(faded) {}
+
+  void paint(const BladeRow& row, Image& texture) const {
+    const Channels mean = at_texels(tissue_.colour, row), first = at_texels(levels_.first, row),
+                   level = at_texels(levels_.texture, row);
+    std::vector<float> faded;
+    texels_.interpolate(faded_, row, faded);
+    for (int i = 0; i < row.count(); ++i) {
+      const std::uint8_t* seen = photo_.pixel(row.columns[i], row.y);
+      std::uint8_t* out = texture.pixel(row.columns[i], row.y);
+      const Vec3 light(decode_(seen[0]), decode_(seen[1]), decode_(seen[2]));
+      const double green = light.y() / mean[1][i];
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double detail = light[c] / mean[c][i];
+        const double wanted = level[c][i] * (detail + faded[i] * (green - detail));
+        out[c] = encode_(std::clamp(wanted, low_[c](seen[c]) / first[c][i], high_[c](seen[c]) / first[c][i]));
+      }
+    }
+  }
+
+ private:
+  using Channels = std::array<std::vector<float>, 3>;
+  Channels at_texels(const Points3& values, const BladeRow& row) const {
+    Channels channels;
+    for (std::size_t c = 0; c < 3; ++c) texels_.interpolate(values.col(int(c)), row, channels[c]);
+    return channels;
+  }
+
+  const BladeTexels& texels_;
+  const Image& photo_;
+  const PhotoTissue& tissue_;
+  const PhotoLevels& levels_;
+  const Eigen::VectorXd& faded_;
+  Decoder decode_{0.0};
+  std::array<Decoder, 3> low_{Decoder(-kSlack[0]), Decoder(-kSlack[1]), Decoder(-kSlack[2])};
+  std::array<Decoder, 3> high_{Decoder(kSlack[0]), Decoder(kSlack[1]), Decoder(kSlack[2])};
+  SrgbBytes encode_;
+};
 
 }  // namespace
 
 PhotoTissue photo_tissue(const BladeTexels& texels, const Image& photo, const SenescencePattern& pattern,
                          const TissueColours& colours) {
   const AroundVertices around(texels, photo);
-  PhotoTissue tissue{around.linear(0.0), around.linear(kBrightestOf), {}, {}};
+  PhotoTissue tissue{around.mean(), around.brightest(), {}, {}};
   const Eigen::Index count = tissue.colour.rows();
   tissue.age.resize(count), tissue.redness.resize(count);
   const std::vector<Candidate> all = candidates(colours);
@@ -180,67 +241,6 @@ Eigen::VectorXd faded_hue(const SenescencePattern& pattern, const Eigen::VectorX
   for (Eigen::Index v = 0; v < dryness.size(); ++v) faded[v] = gone(tissue_age(dryness[v], pattern.ahead[v]));
   return faded;
 }
-
-namespace {
-
-// Linear light of bytes moved by a number of steps.
-class Decoder {
- public:
-  explicit Decoder(double moved) {
-    for (std::size_t b = 0; b < table_.size(); ++b)
-      table_[b] = decode_srgb(std::clamp(static_cast<double>(b) + moved, 0.0, 255.0) / 255.0);
-  }
-  double operator()(std::uint8_t byte) const { return table_[byte]; }
-
- private:
-  std::array<double, 256> table_{};
-};
-
-class PhotoPainter {
- public:
-  PhotoPainter(const BladeTexels& texels, const Image& photo, const PhotoTissue& tissue,
-               const PhotoLevels& levels, const Eigen::VectorXd& faded)
-      : texels_(texels), photo_(photo), tissue_(tissue), levels_(levels), faded_(faded) {}
-
-  void paint(const BladeRow& row, Image& texture) const {
-    const Channels mean = at_texels(tissue_.colour, row), first = at_texels(levels_.first, row),
-                   level = at_texels(levels_.texture, row);
-    std::vector<float> faded;
-    texels_.interpolate(faded_, row, faded);
-    for (int i = 0; i < row.count(); ++i) {
-      const std::uint8_t* seen = photo_.pixel(row.columns[i], row.y);
-      std::uint8_t* out = texture.pixel(row.columns[i], row.y);
-      const Vec3 light(decode_(seen[0]), decode_(seen[1]), decode_(seen[2]));
-      const Vec3 around(mean[0][i], mean[1][i], mean[2][i]);
-      const double brightness = luminance(light) / luminance(around);
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double detail = light[c] / around[c];
-        const double wanted = level[c][i] * (detail + faded[i] * (brightness - detail));
-        out[c] = encode_(std::clamp(wanted, low_[c](seen[c]) / first[c][i], high_[c](seen[c]) / first[c][i]));
-      }
-    }
-  }
-
- private:
-  using Channels = std::array<std::vector<float>, 3>;
-  Channels at_texels(const Points3& values, const BladeRow& row) const {
-    Channels channels;
-    for (std::size_t c = 0; c < 3; ++c) texels_.interpolate(values.col(int(c)), row, channels[c]);
-    return channels;
-  }
-
-  const BladeTexels& texels_;
-  const Image& photo_;
-  const PhotoTissue& tissue_;
-  const PhotoLevels& levels_;
-  const Eigen::VectorXd& faded_;
-  Decoder decode_{0.0};
-  std::array<Decoder, 3> low_{Decoder(-kSlack[0]), Decoder(-kSlack[1]), Decoder(-kSlack[2])};
-  std::array<Decoder, 3> high_{Decoder(kSlack[0]), Decoder(kSlack[1]), Decoder(kSlack[2])};
-  SrgbBytes encode_;
-};
-
-}  // namespace
 
 Image photo_texture(const BladeTexels& texels, const Image& photo, const PhotoTissue& tissue,
                     const PhotoLevels& levels, const Eigen::VectorXd& faded) {

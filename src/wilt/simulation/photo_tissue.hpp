@@ -12,7 +12,7 @@ namespace wilt {
 /// What a photo shows around each vertex, and the state of the species' tissue that looks most like it. #V.
 struct PhotoTissue {
   Points3 colour;           ///< linear RGB, mean of the texels around, above 0
-  Points3 brightest;        ///< the same of the bright ones among them: veins
+  Points3 brightest;        ///< the same of the bright ones among them (veins), a little less
   Eigen::VectorXd age;      ///< 0 (fresh) to kOldestTissue
   Eigen::VectorXd redness;  ///< 0 to 1
 };
@@ -42,7 +42,8 @@ struct PhotoLevels {
 
 /// The texture that times `first` (interpolated) is the photo, within two steps of 255 (blue: six). Within
 /// those limits it has around each vertex the mean colour `texture`, and the photo's detail: in each channel,
-/// and where its hue has faded (#V) in brightness alone. Every texel is filled. Deterministic.
+/// and where its hue has faded (#V) that of green, which cameras see best, in all. Every texel is filled.
+/// Deterministic.
 Image photo_texture(const BladeTexels& texels, const Image& photo, const PhotoTissue& tissue,
                     const PhotoLevels& levels, const Eigen::VectorXd& faded);
 
