@@ -11,6 +11,8 @@
 #include "wilt/core/nearest.hpp"
 #include "wilt/import/read_leaf.hpp"
 #include "wilt/leaf/species.hpp"
+#include "wilt/output/file.hpp"
+#include "wilt/output/veins_files.hpp"
 
 namespace wilt::cli {
 namespace {
@@ -78,6 +80,26 @@ Leaf load_leaf(const LeafRequest& request, const Monitor& monitor) {
   if (!request.petiole.empty())
     options.petiole = parse_pair(request.petiole, ',', "--petiole takes two numbers, X,Y");
   return read_leaf(request.leaf, options, monitor);
+}
+
+void add_veins_option(CLI::App& verb, LeafRequest& request) {
+  verb.add_option(
+          "--veins", request.veins,
+          "Veins from a veins.json that `wilt veins` wrote for this leaf,\nedited: moved, deleted, added")
+      ->type_name("FILE");
+}
+
+Venation load_veins(const LeafRequest& request, const Leaf& leaf, const SecondaryVeinRule& rule,
+                    const VenationOptions& options, const Monitor& monitor) {
+  Venation found = find_venation(leaf, rule, options, monitor);
+  if (request.veins.empty()) return found;
+  const std::string text = read_file(request.veins);
+  try {
+    return with_drawn_veins(leaf, found, parse_veins_json(text, request.veins, leaf, found), options);
+  } catch (const Error& error) {
+    if (std::string_view(error.what()).find(request.veins) != std::string_view::npos) throw;
+    throw Error(error.code(), fmt::format("'{}': {}", request.veins, error.what()));
+  }
 }
 
 }  // namespace wilt::cli
