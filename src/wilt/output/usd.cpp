@@ -96,7 +96,7 @@ std::string asset(const std::string& path) {
 class Writer {
  public:
   Writer(const ShownColours& shown, const ClipOptions& options)
-      : shown_(shown), clip_(shown.clip()), last_(static_cast<int>(clip_.frames.size()) - 1) {
+      : shown_(shown), clip_(shown.clip()), last_(shown.last_frame()) {
     for (const double time : key_times(clip_.frames, options.seconds))
       codes_.push_back(time * options.frame_rate);
   }
@@ -286,7 +286,8 @@ std::string usd_text(const ShownColours& shown, const ClipOptions& options, cons
 }
 
 void write_usd(const std::string& path, const ShownColours& shown, const ClipOptions& options) {
-  const std::string texture = write_texture(path, shown), normal_map = write_normal_map(path, shown.clip());
+  const std::string texture = write_texture(path, shown, shown.last_frame()),
+                    normal_map = write_normal_map(path, shown.clip());
   write_file(path, usd_text(shown, options, texture, normal_map));
 }
 
