@@ -39,21 +39,22 @@ Files usd_files(const std::string& path, int) {
   return files;
 }
 
-Files obj_files(const std::string& path, int frames) {
-  const std::string stem = is_sequence(path) ? sequence_stem(path) : path;
-  Files files{{beside(stem, ".mtl")}};
-  for (int k = 0; k < (is_sequence(path) ? frames : 1); ++k) {
-    const std::string file = is_sequence(path) ? sequence_path(path, k) : path;
-    files.push_back({file});
-    add_maps(files, file, stem);
-  }
+// The files of a path in whose name a row of hashes may stand for the frame's number.
+Files numbered(const std::string& path, int frames) {
+  if (!is_sequence(path)) return {{path}};
+  check_sequence(path);
+  Files files;
+  for (int k = 0; k < frames; ++k) files.push_back({sequence_path(path, k)});
   return files;
 }
 
-Files one_or_sequence(const std::string& path, int frames) {
-  if (!is_sequence(path)) return {{path}};
-  Files files;
-  for (int k = 0; k < frames; ++k) files.push_back({sequence_path(path, k)});
+Files obj_files(const std::string& path, int frames) {
+  const std::string stem = is_sequence(path) ? sequence_stem(path) : path;
+  Files files{{beside(stem, ".mtl")}};
+  for (const ResultFile& file : numbered(path, frames)) {
+    files.push_back(file);
+    add_maps(files, file.path, stem);
+  }
   return files;
 }
 
@@ -129,11 +130,11 @@ const std::vector<ResultFormat>& result_formats() {
        write_obj_files},
       {{".ply"},
        "the last frame, with colours; leaf.####.ply: every frame",
-       one_or_sequence,
+       numbered,
        write_frames<write_ply>},
       {{".vtu"},
        "the last frame with its figures; leaf.####.vtu: every frame",
-       one_or_sequence,
+       numbered,
        write_frames<write_vtu>},
       {{".png", ".jpg", ".jpeg"}, "a picture of the last frame", itself, write_picture},
   };

@@ -58,7 +58,7 @@ def obj(path):
     """{"v", "vt", "vn": rows; objects: {name: {"faces": (corners of v, vt, vn from 0), "material"}}; "library"}."""
     rows = {"v": [], "vt": [], "vn": []}
     objects, library, current = {}, None, None
-    for words in (line.split() for line in open(path)):
+    for words in (line.split() for line in pathlib.Path(path).read_text().splitlines()):
         if not words or words[0] == "#":
             continue
         if words[0] in rows:
@@ -80,7 +80,7 @@ def obj(path):
 def mtl(path):
     """{material: {keyword: words}}."""
     materials = {}
-    for words in (line.split() for line in open(path)):
+    for words in (line.split() for line in pathlib.Path(path).read_text().splitlines()):
         if words and words[0] == "newmtl":
             current = materials.setdefault(words[1], {})
         elif words and words[0] != "#":
