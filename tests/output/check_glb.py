@@ -4,6 +4,7 @@ Oracle: the leaf-frame data beside each GLB, brought into the file's coordinates
 here again. Usage: check_glb.py FILE.glb ... (with FILE.json beside it)
 """
 import json
+import pathlib
 import struct
 import sys
 
@@ -16,7 +17,7 @@ WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}
 
 class Glb:
     def __init__(self, path):
-        data = open(path, "rb").read()
+        data = pathlib.Path(path).read_bytes()
         magic, version, length = struct.unpack_from("<4sII", data)
         assert (magic, version, length) == (b"glTF", 2, len(data))
         size, kind = struct.unpack_from("<I4s", data, 12)
