@@ -22,9 +22,10 @@ Json rows(const Matrix& matrix) {
   return list;
 }
 
-void write(const std::string& name, const wilt::Clip& clip, double seconds) {
+void write(const std::string& name, const wilt::Clip& clip, double seconds, int max_morphs = 0) {
   wilt::GlbOptions options;
   options.seconds = seconds;
+  options.max_morphs = max_morphs;
   write_glb(name + ".glb", clip, options);
   const wilt::Leaf& leaf = clip.leaf;
   Json frames = Json::array();
@@ -60,6 +61,10 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(folder);
   wilt::test::Sample sample;
   write(folder + "/withering", sample.clip(), 4.0);
+  write(folder + "/fewer", sample.clip(), 4.0, 3);
+  wilt::test::Sample calm;
+  wilt::test::hold_most(calm);
+  write(folder + "/calm", calm.clip(), 4.0);
   sample.leaf.placement = wilt::test::sample_placement();
   write(folder + "/placed", sample.clip(), 2.5);
   const std::vector<wilt::Frame> rest = rest_frames(sample.leaf);
