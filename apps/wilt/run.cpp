@@ -4,12 +4,11 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
 
+#include "result_formats.hpp"
 #include "wilt/core/error.hpp"
-#include "wilt/output/file.hpp"
 #include "wilt/output/gltf.hpp"
-#include "wilt/output/image_codec.hpp"
-#include "wilt/output/obj.hpp"
 #include "wilt/render/picture.hpp"
 #include "wilt/simulation/simulate.hpp"
 
@@ -17,8 +16,6 @@ namespace wilt::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr int kPictureWidth = 960, kPictureHeight = 720;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -49,17 +46,6 @@ WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& 
   return withered;
 }
 
-void check_result_path(const std::string& path) {
-  const std::string extension = extension_of(path);
-  if (extension != ".glb" && extension != ".obj" && !is_picture_path(path))
-    throw Error(
-        ErrorCode::configuration,
-        fmt::format("cannot write '{}': results are .glb (all frames), .obj (the last frame) or .png, "
-                    ".jpg (a picture of it)",
-                    path));
-  check_writable(path);
-}
-
 void check_writable(const std::string& path) {
   const auto refuse = [&path](const std::string& reason) {
     throw Error(ErrorCode::output, fmt::format("cannot write '{}': {}", path, reason));
@@ -73,14 +59,7 @@ void check_writable(const std::string& path) {
 }
 
 void ResultFiles::write(const std::string& path) {
-  const std::string extension = extension_of(path);
-  if (extension == ".obj") {
-    write_obj(path, withered_.leaf, withered_.result.frames.back());
-  } else if (extension == ".glb") {
-    write_file(path, glb());
-  } else {
-    write_image(path, picture(last_frame(), kPictureWidth, kPictureHeight));
-  }
+  result_format(path).write(*this, path);
 }
 
 Image ResultFiles::picture(int frame, int width, int height) {
@@ -90,12 +69,29 @@ Image ResultFiles::picture(int frame, int width, int height) {
   return render(scene().at(frame), options, terminal_.monitor());
 }
 
+const Clip& ResultFiles::clip() {
+  if (!clip_)
+    clip_.emplace(make_clip(withered_.leaf, withered_.venation, withered_.config, withered_.result.frames));
+  return *clip_;
+}
+
+const ShownColours& ResultFiles::shown() {
+  if (!shown_) shown_.emplace(clip());
+  return *shown_;
+}
+
+ClipOptions ResultFiles::options() const {
+  ClipOptions options;
+  options.seconds = withered_.config.clip.seconds;
+  options.hours_per_iteration = withered_.config.clip.hours / 100.0;
+  return options;
+}
+
 const std::string& ResultFiles::glb() {
   if (glb_.empty()) {
     GlbOptions options;
     options.seconds = withered_.config.clip.seconds;
-    glb_ = glb_bytes(make_clip(withered_.leaf, withered_.venation, withered_.config, withered_.result.frames),
-                     options);
+    glb_ = glb_bytes(clip(), options);
   }
   return glb_;
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 
+#include "result_formats.hpp"
 #include "run.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
@@ -70,11 +71,12 @@ void summarise(const WitheredLeaf& withered, Terminal& terminal) {
                   t.leaf, t.geodesics, t.embedding, t.venation, t.simulation, t.output));
 }
 
-void check_outputs(const Request& request) {
-  for (const std::string& path : request.outputs) check_result_path(path);
+void check_outputs(const Request& request, int frames) {
+  std::vector<std::string> figures;
   for (const std::string& path : {request.report, request.forces}) {
-    if (!path.empty()) check_writable(path);
+    if (!path.empty()) figures.push_back(path);
   }
+  check_results(request.outputs, figures, frames);
 }
 
 void write_all(const Request& request, WitheredLeaf& withered, Terminal& terminal) {
@@ -107,7 +109,7 @@ void run(Request& request, bool seed_given, const GlobalOptions& options) {
     throw Error(ErrorCode::configuration,
                 fmt::format("nothing would be written; add -o {}.glb",
                             std::filesystem::path(request.leaf.leaf).stem().string()));
-  check_outputs(request);
+  check_outputs(request, static_cast<int>(config.frames));
   const ThreadLimit limit(request.threads);
   Terminal terminal(options);
   catch_interrupts();
@@ -138,7 +140,7 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
   verb->get_option("LEAF")->required(false);
   const CLI::Option* seed = verb->get_option("--seed");
   verb->add_option("-o,--output", request->outputs,
-                   "Result: .glb (all frames), .obj (the last frame),\n.png (a picture of it); repeatable")
+                   "Result; repeatable. By the end of its name:" + result_formats_help())
       ->type_name("FILE")
       ->allow_extra_args(false);
   verb->add_option("--iterations", request->iterations, "Time steps (100)")->type_name("N");

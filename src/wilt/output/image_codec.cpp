@@ -85,6 +85,10 @@ Image decode_image(std::string_view bytes) {
   return image;
 }
 
+bool is_jpeg(std::string_view bytes) {
+  return bytes.substr(0, 2) == "\xff\xd8";
+}
+
 bool is_picture_path(const std::string& path) {
   const std::string extension = extension_of(path);
   return extension == ".png" || extension == ".jpg" || extension == ".jpeg";

@@ -19,6 +19,9 @@ std::string encode_png(const Image& image);
 /// neither, or damaged.
 Image decode_image(std::string_view bytes);
 
+/// Whether the bytes of a picture are a JPEG's.
+bool is_jpeg(std::string_view bytes);
+
 /// Whether the name ends in .png, .jpg or .jpeg.
 bool is_picture_path(const std::string& path);
 

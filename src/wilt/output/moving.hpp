@@ -13,6 +13,9 @@ struct Shape {
   Points3 positions, normals;
 };
 
+/// The blade at the vertices of its mesh, #V x 3.
+Shape blade_shape(const Clip& clip, int frame);
+
 /// A mesh to be written: what does not change, and its shape and linear colours (#S x 3) by frame.
 struct Moving {
   std::string name;

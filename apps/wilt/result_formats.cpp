@@ -1,0 +1,122 @@
+#include "result_formats.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "run.hpp"
+#include "wilt/core/error.hpp"
+#include "wilt/output/beside.hpp"
+#include "wilt/output/file.hpp"
+#include "wilt/output/image_codec.hpp"
+#include "wilt/output/obj.hpp"
+#include "wilt/output/usd.hpp"
+
+namespace wilt::cli {
+namespace {
+
+using Files = std::vector<ResultFile>;
+
+constexpr int kPictureWidth = 960, kPictureHeight = 720;
+
+Files itself(const std::string& path, int) {
+  return {{path}};
+}
+
+Files usd_files(const std::string& path, int) {
+  return {{path}, {beside(path, ".texture.jpg"), true}, {beside(path, ".normal.jpg"), true}};
+}
+
+void write_picture(ResultFiles& result, const std::string& path) {
+  write_image(path, result.picture(result.last_frame(), kPictureWidth, kPictureHeight));
+}
+
+std::string extensions_of(const ResultFormat& format) {
+  return fmt::format("{}", fmt::join(format.extensions, " "));
+}
+
+bool ends_in(const std::string& path, const std::string& extension) {
+  std::string end = path.substr(path.size() - std::min(path.size(), extension.size()));
+  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
+  return end == extension;
+}
+
+}  // namespace
+
+const std::vector<ResultFormat>& result_formats() {
+  static const std::vector<ResultFormat> kFormats = {
+      {{".glb"},
+       "all frames, with colours and texture",
+       itself,
+       [](ResultFiles& result, const std::string& path) { write_file(path, result.glb()); }},
+      {{".usda"},
+       "all frames as time samples; its maps beside it",
+       usd_files,
+       [](ResultFiles& result, const std::string& path) {
+         write_usd(path, result.shown(), result.options());
+       }},
+      {{".obj"},
+       "the last frame",
+       itself,
+       [](ResultFiles& result, const std::string& path) {
+         write_obj(path, result.clip().leaf, result.clip().frames.back());
+       }},
+      {{".png", ".jpg", ".jpeg"}, "a picture of the last frame", itself, write_picture},
+  };
+  return kFormats;
+}
+
+const ResultFormat& result_format(const std::string& path) {
+  const ResultFormat* found = nullptr;
+  std::size_t longest = 0;
+  std::vector<std::string> all;
+  for (const ResultFormat& format : result_formats()) {
+    all.push_back(fmt::format("{} ({})", format.extensions.front(), format.content));
+    for (const std::string& extension : format.extensions) {
+      if (extension.size() <= longest || !ends_in(path, extension)) continue;
+      longest = extension.size();
+      found = &format;
+    }
+  }
+  if (found != nullptr) return *found;
+  throw Error(ErrorCode::configuration,
+              fmt::format("cannot write '{}': results are {}", path, fmt::join(all, ", ")));
+}
+
+std::string result_formats_help() {
+  std::string text;
+  for (const ResultFormat& format : result_formats())
+    text += fmt::format("\n  {:<16} {}", extensions_of(format), format.content);
+  return text;
+}
+
+void check_results(const std::vector<std::string>& paths, const std::vector<std::string>& others,
+                   int frames) {
+  struct Writer {
+    std::string path;
+    bool common;
+  };
+  std::map<std::string, Writer> writers;
+  const auto claim = [&writers](const ResultFile& file, const std::string& path) {
+    const std::string key = std::filesystem::absolute(file.path).lexically_normal().string();
+    const auto [place, is_new] = writers.try_emplace(key, Writer{path, file.common});
+    const Writer& before = place->second;
+    if (is_new || before.path == path || (before.common && file.common)) return;
+    throw Error(ErrorCode::configuration,
+                fmt::format("'{}' and '{}' would both write '{}'; give one another name", before.path, path,
+                            file.path));
+  };
+  for (const std::string& path : paths) {
+    const ResultFormat& format = result_format(path);
+    check_writable(path);
+    for (const ResultFile& file : format.files(path, frames)) claim(file, path);
+  }
+  for (const std::string& path : others) {
+    check_writable(path);
+    claim({path}, path);
+  }
+}
+
+}  // namespace wilt::cli
