@@ -8,6 +8,7 @@
 
 #include "result_formats.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/output/glb_scene.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/render/picture.hpp"
 #include "wilt/simulation/simulate.hpp"
@@ -91,7 +92,14 @@ const std::string& ResultFiles::glb() {
   if (glb_.empty()) {
     GlbOptions options;
     options.seconds = withered_.config.clip.seconds;
-    glb_ = glb_bytes(clip(), options);
+    options.max_morphs = files_.max_morphs;
+    const GlbScene scene = glb_scene(clip(), options);
+    const FrameChoice& choice = scene.frames;
+    if (choice.kept.size() < clip().frames.size())
+      terminal_.say(fmt::format(
+          "{} of {} frames kept; playback is off by {:.3g} mm (root mean square), {:.3g} mm at most",
+          choice.kept.size(), clip().frames.size(), 1e3 * choice.rms, 1e3 * choice.largest));
+    glb_ = glb_bytes(scene);
   }
   return glb_;
 }

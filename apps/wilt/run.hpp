@@ -30,18 +30,24 @@ struct WitheredLeaf {
 /// Loads the leaf, finds its veins and withers it. The leaf's notes go to the terminal.
 WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& terminal);
 
+/// What the command line says about the files of a result.
+struct FileOptions {
+  int max_morphs = 0;  ///< of a GLB, 2 or more; 0: all frames
+};
+
 /// A withered leaf as files and pictures; what they share is made once, when the first needs it.
 class ResultFiles {
  public:
-  /// Refers to both, which must outlive it.
-  ResultFiles(const WitheredLeaf& withered, Terminal& terminal) : withered_(withered), terminal_(terminal) {}
+  /// Refers to the leaf and the terminal, which must outlive it.
+  ResultFiles(const WitheredLeaf& withered, Terminal& terminal, const FileOptions& files = {})
+      : withered_(withered), terminal_(terminal), files_(files) {}
 
   /// By extension, result_formats.hpp.
   void write(const std::string& path);
 
-  /// A picture of a frame (0 to last_frame()), lying on a table.
+  /// A picture of a frame of the GLB (0 to last_frame()), lying on a table.
   Image picture(int frame, int width, int height);
-  int last_frame() const { return static_cast<int>(withered_.result.frames.size()) - 1; }
+  int last_frame() { return scene().frames() - 1; }
 
   const Clip& clip();
   const ShownColours& shown();
@@ -53,6 +59,7 @@ class ResultFiles {
 
   const WitheredLeaf& withered_;
   Terminal& terminal_;
+  FileOptions files_;
   std::optional<Clip> clip_;
   std::optional<ShownColours> shown_;  // refers to clip_
   std::string glb_;

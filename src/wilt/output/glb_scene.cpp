@@ -29,9 +29,9 @@ Floats difference(const Points3& values, const Floats& base) {
 // A target per frame: POSITION, NORMAL and, given colours per frame, COLOR_0, as differences from the base.
 Targets add_targets(GlbBuilder& builder, const GlbScene& scene, const Moving& moving, const Floats& positions,
                     const Floats& normals, const Floats& colours) {
-  const int count = static_cast<int>(scene.frames.size());
+  const int count = static_cast<int>(scene.frames.kept.size());
   const bool coloured = moving.colour_count > 1;
-  Targets targets(scene.frames.size());
+  Targets targets(scene.frames.kept.size());
   for (std::map<std::string, int>& target : targets) {
     for (const char* name : {"POSITION", "NORMAL", "COLOR_0"}) {
       if (coloured || name != std::string_view("COLOR_0"))
@@ -40,7 +40,7 @@ Targets add_targets(GlbBuilder& builder, const GlbScene& scene, const Moving& mo
   }
   parallel_for(count, 1, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
-      const int frame = scene.frames[static_cast<std::size_t>(k)];
+      const int frame = scene.frames.kept[static_cast<std::size_t>(k)];
       const Shape shape = moving.shape(frame);
       const std::map<std::string, int>& target = targets[static_cast<std::size_t>(k)];
       builder.fill_difference(target.at("POSITION"), difference(shape.positions, positions), true);
@@ -72,7 +72,7 @@ tinygltf::Primitive add_primitive(GlbBuilder& builder, const GlbScene& scene, co
   if (moving.water.size() > 0)
     primitive.attributes["_WATER"] = builder.add_floats(moving.water.cast<float>(), kTarget, false);
   primitive.indices = builder.add_indices(moving.faces);
-  if (scene.frames.size() > 1)
+  if (scene.frames.kept.size() > 1)
     primitive.targets = add_targets(builder, scene, moving, positions, normals, colours);
   return primitive;
 }
@@ -82,8 +82,8 @@ void add_mesh(GlbBuilder& builder, const GlbScene& scene, const Moving& moving, 
   mesh.name = moving.name;
   mesh.primitives = {add_primitive(builder, scene, moving)};
   mesh.primitives.front().material = material;
-  if (scene.frames.size() > 1) {
-    mesh.weights.assign(scene.frames.size(), 0.0);
+  if (scene.frames.kept.size() > 1) {
+    mesh.weights.assign(scene.frames.kept.size(), 0.0);
     mesh.weights.back() = 1.0;
     // The names of the targets stand where Blender and three.js look for them.
     std::vector<tinygltf::Value> names;
@@ -186,12 +186,12 @@ std::size_t expected_size(const GlbScene& scene) {
   std::size_t size = scene.texture.size() + scene.normal_texture.size() + 2 * scene.extras.size();
   for (const Moving& mesh : scene.meshes) {
     const auto corners = static_cast<std::size_t>(mesh.uv.rows());
-    const auto colours = static_cast<std::size_t>(mesh.colour_count > 1 ? scene.frames.size() + 1 : 1);
-    const std::size_t rows = 2 * (scene.frames.size() + 1) + colours + 3;
+    const auto colours = static_cast<std::size_t>(mesh.colour_count > 1 ? scene.frames.kept.size() + 1 : 1);
+    const std::size_t rows = 2 * (scene.frames.kept.size() + 1) + colours + 3;
     size += corners * rows * 3 * sizeof(float) +
             static_cast<std::size_t>(mesh.faces.size()) * sizeof(std::uint32_t);
   }
-  return size + (scene.frames.size() + 4) * (std::size_t{1} << 16);
+  return size + (scene.frames.kept.size() + 4) * (std::size_t{1} << 16);
 }
 
 }  // namespace

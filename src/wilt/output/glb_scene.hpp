@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "wilt/output/frame_choice.hpp"
 #include "wilt/output/moving.hpp"
 
 namespace wilt {
@@ -11,7 +12,7 @@ namespace wilt {
 /// Meshes at chosen frames. Texture and relief are those of the first mesh.
 struct GlbScene {
   std::vector<Moving> meshes;   ///< >= 1
-  std::vector<int> frames;      ///< numbers of the frames that are shown, ascending, >= 1
+  FrameChoice frames;           ///< those that are shown, >= 1
   std::vector<int> iterations;  ///< one for each of them, ascending
   double seconds = 4.0;         ///< from the first to the last, > 0; time is proportional to the iteration
   std::string texture;          ///< bytes of a PNG or JPEG; empty: white

@@ -65,16 +65,14 @@ GlbScene glb_scene(const Clip& clip, const GlbOptions& options) {
   GlbScene scene;
   scene.meshes.push_back(moving_blade(clip));
   if (clip.frames.front().stalk.rows() >= 2) scene.meshes.push_back(moving_stalk(clip, options.stalk_sides));
-  const int all = static_cast<int>(clip.frames.size());
-  const FrameChoice choice =
-      choose_frames(clip.frames, std::max(2, options.max_morphs > 0 ? options.max_morphs : all));
-  scene.frames = choice.kept;
-  for (const int k : scene.frames)
+  const int all = std::max(2, static_cast<int>(clip.frames.size()));
+  scene.frames = choose_frames(clip.frames, options.max_morphs > 0 ? options.max_morphs : all);
+  for (const int k : scene.frames.kept)
     scene.iterations.push_back(clip.frames[static_cast<std::size_t>(k)].iteration);
   scene.seconds = options.seconds;
   scene.texture = clip.texture;
   scene.normal_texture = clip.normal_texture;
-  scene.extras = glb_extras(clip, choice);
+  scene.extras = glb_extras(clip, scene.frames);
   return scene;
 }
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "wilt/output/gltf.hpp"
+#include "wilt/output/clip.hpp"
 
 namespace wilt {
 
