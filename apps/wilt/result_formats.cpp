@@ -8,6 +8,7 @@
 
 #include "run.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/game/animation_texture.hpp"
 #include "wilt/output/beside.hpp"
 #include "wilt/output/file.hpp"
 #include "wilt/output/image_codec.hpp"
@@ -27,6 +28,21 @@ Files itself(const std::string& path, int) {
 
 Files usd_files(const std::string& path, int) {
   return {{path}, {beside(path, ".texture.jpg"), true}, {beside(path, ".normal.jpg"), true}};
+}
+
+Files vat_files(const std::string& path, int) {
+  Files files;
+  for (const std::string& file : animation_texture_files(path)) files.push_back({file});
+  return files;
+}
+
+void write_vat(ResultFiles& result, const std::string& path) {
+  const AnimationTextureOptions options{result.options(), result.files().vat_png, result.files().lods};
+  const std::vector<WrittenLevel> levels = write_animation_texture(path, result.clip(), options);
+  for (std::size_t level = 1; level < levels.size(); ++level)
+    result.terminal().say(fmt::format("level {}: {} of {} triangles, off by {:.2g} mm at most", level,
+                                      levels[level].triangles, levels.front().triangles,
+                                      1e3 * levels[level].deviation));
 }
 
 void write_picture(ResultFiles& result, const std::string& path) {
@@ -57,6 +73,10 @@ const std::vector<ResultFormat>& result_formats() {
        [](ResultFiles& result, const std::string& path) {
          write_usd(path, result.shown(), result.options());
        }},
+      {{".vat.json"},
+       "all frames as textures of positions, normals and colours, for game engines",
+       vat_files,
+       write_vat},
       {{".obj"},
        "the last frame",
        itself,

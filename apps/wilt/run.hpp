@@ -32,7 +32,9 @@ WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& 
 
 /// What the command line says about the files of a result.
 struct FileOptions {
-  int max_morphs = 0;  ///< of a GLB, 2 or more; 0: all frames
+  int max_morphs = 0;    ///< of a GLB, 2 or more; 0: all frames
+  int lods = 0;          ///< coarser meshes beside vertex-animation textures, 0 to 8
+  bool vat_png = false;  ///< those as 16-bit PNG rather than EXR
 };
 
 /// A withered leaf as files and pictures; what they share is made once, when the first needs it.
@@ -45,16 +47,19 @@ class ResultFiles {
   /// By extension, result_formats.hpp.
   void write(const std::string& path);
 
-  /// A picture of a frame of the GLB (0 to last_frame()), lying on a table.
+  /// A picture of a frame (0 to last_frame()), lying on a table.
   Image picture(int frame, int width, int height);
-  int last_frame() { return scene().frames() - 1; }
+  int last_frame() const { return static_cast<int>(withered_.result.frames.size()) - 1; }
 
   const Clip& clip();
   const ShownColours& shown();
   const std::string& glb();
   ClipOptions options() const;
+  const FileOptions& files() const { return files_; }
+  Terminal& terminal() { return terminal_; }
 
  private:
+  std::string make_glb(int max_morphs);
   const LeafScene& scene();
 
   const WitheredLeaf& withered_;

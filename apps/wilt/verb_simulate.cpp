@@ -150,6 +150,14 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
                    "Frames in a .glb (all): those whose playback misses the least")
       ->type_name("N")
       ->check(CLI::Range(2, 100000));
+  verb->add_option("--lods", request->files.lods, "Coarser meshes beside a .vat.json (0)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 8));
+  verb->add_option_function<std::string>(
+          "--vat", [request](const std::string& kind) { request->files.vat_png = kind == "png"; },
+          "Textures of a .vat.json: exr (half floats) or png (16 bits)")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"exr", "png"}));
   verb->add_option("--model", request->model, "cell (default) or paper")->type_name("NAME");
   verb->add_option("--config", request->config_file, "Settings from a TOML file")->type_name("FILE");
   verb->add_option("--set", request->assignments, "One setting; repeatable, wins over --config")

@@ -147,13 +147,28 @@ def build_object(glb, source, collection):
     return built, colours
 
 
-def animate_shapes(keys, scene_frames):
+def make_linear(animated):
+    """Straight lines between the key frames of a data block, which Blender would ease."""
+    animation = animated.animation_data
+    if hasattr(animation.action, "fcurves"):
+        curves = animation.action.fcurves
+    else:  # from 5.0 on
+        from bpy_extras import anim_utils
+
+        curves = anim_utils.action_get_channelbag_for_slot(animation.action, animation.action_slot).fcurves
+    for curve in curves:
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+
+
+def animate_shapes(shape_keys, scene_frames):
     """Key k is fully on at frame k and off at its neighbours: in between two keys share, linearly."""
     last = len(scene_frames) - 1
-    for k, key in enumerate(keys):
+    for k, key in enumerate(shape_keys.key_blocks[1:]):  # the first is the rest shape
         for frame in range(max(k - 1, 0), min(k + 1, last) + 1):
             key.value = 1.0 if frame == k else 0.0
             key.keyframe_insert("value", frame=scene_frames[frame])
+    make_linear(shape_keys)
 
 
 def colour_store(name, colours):
@@ -196,6 +211,7 @@ def ageing_tree(name, store, points, scene_frames):
     for k, frame in enumerate(scene_frames):
         time.outputs[0].default_value = k
         time.outputs[0].keyframe_insert("default_value", frame=frame)
+    make_linear(tree)
     whole = maths("FLOOR", time.outputs[0])
     index = node("GeometryNodeInputIndex").outputs[0]
     store_info = node("GeometryNodeObjectInfo")
@@ -315,30 +331,24 @@ def import_leaf(context, path, fps=24):
     scene_frames = [1.0 + fps * time for time in glb.times()]
     scene.render.fps, scene.render.fps_base = fps, 1.0
     scene.frame_start, scene.frame_end = 1, max(1, math.ceil(scene_frames[-1] - 1e-3))
-    edit = context.preferences.edit
-    interpolation = edit.keyframe_new_interpolation_type
-    edit.keyframe_new_interpolation_type = "LINEAR"
     built = []
-    try:
-        for source in glb.json["meshes"]:
-            leaf, colours = build_object(glb, source, collection)
-            # A leaf that came from a file in other units is shown in metres.
-            leaf.scale = [glb.json["asset"]["extras"]["wilt"]["metres_per_unit"]] * 3
-            look = glb.json["materials"][source["primitives"][0]["material"]]
-            texture = look["pbrMetallicRoughness"].get("baseColorTexture")
-            material = build_material(source["name"], glb.image(texture), glb.image(look.get("normalTexture")))
-            leaf.data.materials.append(material)
-            if leaf.data.shape_keys:
-                animate_shapes(leaf.data.shape_keys.key_blocks[1:], scene_frames)
-            if 1 < len(colours) and len(colours) * len(colours[0]) <= MOST_SAMPLES:
-                store = colour_store(source["name"], colours)
-                modifier = leaf.modifiers.new("wilt ageing", "NODES")
-                modifier.node_group = ageing_tree(source["name"], store, len(colours[0]), scene_frames)
-            elif len(colours) > 1:
-                print("wilt: too many colours for nodes; the leaf has those of its last frame throughout")
-            built.append(leaf)
-    finally:
-        edit.keyframe_new_interpolation_type = interpolation
+    for source in glb.json["meshes"]:
+        leaf, colours = build_object(glb, source, collection)
+        # A leaf that came from a file in other units is shown in metres.
+        leaf.scale = [glb.json["asset"]["extras"]["wilt"]["metres_per_unit"]] * 3
+        look = glb.json["materials"][source["primitives"][0]["material"]]
+        texture = look["pbrMetallicRoughness"].get("baseColorTexture")
+        material = build_material(source["name"], glb.image(texture), glb.image(look.get("normalTexture")))
+        leaf.data.materials.append(material)
+        if leaf.data.shape_keys:
+            animate_shapes(leaf.data.shape_keys, scene_frames)
+        if 1 < len(colours) and len(colours) * len(colours[0]) <= MOST_SAMPLES:
+            store = colour_store(source["name"], colours)
+            modifier = leaf.modifiers.new("wilt ageing", "NODES")
+            modifier.node_group = ageing_tree(source["name"], store, len(colours[0]), scene_frames)
+        elif len(colours) > 1:
+            print("wilt: too many colours for nodes; the leaf has those of its last frame throughout")
+        built.append(leaf)
     scene.frame_set(scene.frame_start)
     return built
 

@@ -52,8 +52,11 @@ class Glb:
         assert start + count * np.dtype(TYPES[kind]).itemsize <= end <= len(self.binary)
         return np.frombuffer(self.binary[start:end], TYPES[kind], count)
 
+    def attribute(self, primitive, name):
+        return self.accessor(primitive["attributes"][name])
+
     def frames(self, primitive, name):
-        base = self.accessor(primitive["attributes"][name])
+        base = self.attribute(primitive, name)
         return [base + self.accessor(t[name]) for t in primitive.get("targets", []) if name in t] or [base]
 
 

@@ -1,5 +1,7 @@
 #include "wilt/output/glb_builder.hpp"
 
+#include <tiny_gltf.h>
+
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -31,6 +33,10 @@ struct IndexType {
 };
 
 }  // namespace
+
+char* GlbBuilder::at(int view) {
+  return binary.data() + model.bufferViews[static_cast<std::size_t>(view)].byteOffset;
+}
 
 int GlbBuilder::add_view(std::size_t size, int target) {
   binary.resize(padded(binary.size()), '\0');

@@ -1,22 +1,27 @@
 // The arrays of a GLB: its binary chunk, and the accessors and views that describe it.
 #pragma once
 
-#include <tiny_gltf.h>
-
 #include <Eigen/Core>
 #include <cstddef>
 #include <string>
 
 #include "wilt/core/types.hpp"
 
+namespace tinygltf {
+class Model;
+struct Accessor;
+}  // namespace tinygltf
+
 namespace wilt {
 
 using Floats = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Fills the binary chunk and the accessors that describe it. For the sources of this room only.
+/// Fills the binary chunk, and the accessors of a model that describe it. For the sources of this room only.
 class GlbBuilder {
  public:
-  tinygltf::Model model;
+  explicit GlbBuilder(tinygltf::Model& target) : model(target) {}
+
+  tinygltf::Model& model;
   std::string binary;
 
   /// Number of a new view of `size` bytes, aligned to 4.
@@ -40,7 +45,7 @@ class GlbBuilder {
   void pack();
 
  private:
-  char* at(int view) { return binary.data() + model.bufferViews[static_cast<std::size_t>(view)].byteOffset; }
+  char* at(int view);
   int add_accessor(const tinygltf::Accessor& accessor);
 };
 

@@ -63,7 +63,7 @@ std::string glb_extras(const Clip& clip, const FrameChoice& choice) {
                  {"frames", frames},
                  {"dryness", dryness},
                  {"veins", veins_json(clip)}};
-  if (choice.kept.size() < clip.frames.size())
+  if (choice.kept.size() > 1 && choice.kept.size() < clip.frames.size())
     extras["left_out"] = {{"of", clip.frames.size()}, {"rms", choice.rms}, {"largest", choice.largest}};
   return extras.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

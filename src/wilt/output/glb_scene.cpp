@@ -1,6 +1,7 @@
 #include "wilt/output/glb_scene.hpp"
 
 #include <fmt/format.h>
+#include <tiny_gltf.h>
 
 #include <array>
 #include <cstdint>
@@ -197,7 +198,8 @@ std::size_t expected_size(const GlbScene& scene) {
 }  // namespace
 
 std::string glb_bytes(const GlbScene& scene) {
-  GlbBuilder builder;
+  tinygltf::Model model;
+  GlbBuilder builder(model);
   builder.binary.reserve(expected_size(scene));
   builder.model.asset.generator = fmt::format("wilt {}", version());
   builder.model.asset.version = "2.0";

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wilt/output/frame_choice.hpp"
+#include "wilt/output/gltf.hpp"
 #include "wilt/output/moving.hpp"
 
 namespace wilt {
