@@ -145,7 +145,8 @@ class AnimationTexture(unittest.TestCase):
                 all_faces, all_lookup, all_frames = full[name]
                 ids = {tuple(row): i for i, row in enumerate(all_lookup)}
                 kept = [ids[tuple(row)] for row in lookup]  # a KeyError: no vertex of the full mesh
-                self.assertEqual(set(border(all_faces)), {kept[v] for v in border(faces)})
+                if name == "blade":  # the stalk is closed
+                    self.assertEqual(set(border(all_faces)), {kept[v] for v in border(faces)})
                 for some, everyone in zip(frames, all_frames):
                     np.testing.assert_array_equal(some, everyone[kept])
                     a, b, c = (some[faces[:, i]] for i in range(3))

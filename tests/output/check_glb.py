@@ -17,7 +17,8 @@ WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}
 
 class Glb:
     def __init__(self, path):
-        data = open(path, "rb").read()
+        with open(path, "rb") as file:
+            data = file.read()
         magic, version, length = struct.unpack_from("<4sII", data)
         assert (magic, version, length) == (b"glTF", 2, len(data))
         size, kind = struct.unpack_from("<I4s", data, 12)
