@@ -13,7 +13,10 @@
 #include "wilt/output/file.hpp"
 #include "wilt/output/image_codec.hpp"
 #include "wilt/output/obj.hpp"
+#include "wilt/output/ply.hpp"
+#include "wilt/output/point_cache.hpp"
 #include "wilt/output/usd.hpp"
+#include "wilt/output/vtk.hpp"
 
 namespace wilt::cli {
 namespace {
@@ -26,8 +29,60 @@ Files itself(const std::string& path, int) {
   return {{path}};
 }
 
+void add_maps(Files& files, const std::string& texture_of, const std::string& normal_map_of) {
+  files.push_back({beside(texture_of, ".texture.jpg"), true});
+  files.push_back({beside(normal_map_of, ".normal.jpg"), true});
+}
+
 Files usd_files(const std::string& path, int) {
-  return {{path}, {beside(path, ".texture.jpg"), true}, {beside(path, ".normal.jpg"), true}};
+  Files files{{path}};
+  add_maps(files, path, path);
+  return files;
+}
+
+// The files of a path in whose name a row of hashes may stand for the frame's number.
+Files numbered(const std::string& path, int frames) {
+  if (!is_sequence(path)) return {{path}};
+  check_sequence(path);
+  Files files;
+  for (int k = 0; k < frames; ++k) files.push_back({sequence_path(path, k)});
+  return files;
+}
+
+Files obj_files(const std::string& path, int frames) {
+  const std::string stem = is_sequence(path) ? sequence_stem(path) : path;
+  Files files{{beside(stem, ".mtl")}};
+  for (const ResultFile& file : numbered(path, frames)) {
+    files.push_back(file);
+    add_maps(files, file.path, stem);
+  }
+  return files;
+}
+
+Files pvd_files(const std::string& path, int frames) {
+  Files files{{path}};
+  for (int k = 0; k < frames; ++k) {
+    files.push_back({pvd_blade_path(path, k)});
+    files.push_back({pvd_stalk_path(path, k)});
+  }
+  return files;
+}
+
+Files cache_files(const std::string& path, int) {
+  return {{path}, {beside(path, ".stalk" + extension_of(path))}};
+}
+
+void write_obj_files(ResultFiles& result, const std::string& path) {
+  if (is_sequence(path)) return write_obj_sequence(path, result.shown(), result.options());
+  write_obj(path, result.shown(), result.last_frame(), result.options());
+}
+
+/// The last frame, or every frame by its number.
+template <void (*write)(const std::string&, const ShownColours&, int, const ClipOptions&)>
+void write_frames(ResultFiles& result, const std::string& path) {
+  if (!is_sequence(path)) return write(path, result.shown(), result.last_frame(), result.options());
+  for (int k = 0; k <= result.last_frame(); ++k)
+    write(sequence_path(path, k), result.shown(), k, result.options());
 }
 
 Files vat_files(const std::string& path, int) {
@@ -77,12 +132,30 @@ const std::vector<ResultFormat>& result_formats() {
        "all frames as textures of positions, normals and colours, for game engines",
        vat_files,
        write_vat},
-      {{".obj"},
-       "the last frame",
-       itself,
+      {{".pc2", ".mdd"},
+       "positions of all frames, for the .obj's mesh",
+       cache_files,
        [](ResultFiles& result, const std::string& path) {
-         write_obj(path, result.clip().leaf, result.clip().frames.back());
+         write_point_caches(path, result.clip(), result.options());
        }},
+      {{".pvd"},
+       "all frames with their figures as .vtu beside it, for ParaView",
+       pvd_files,
+       [](ResultFiles& result, const std::string& path) {
+         write_pvd(path, result.shown(), result.options());
+       }},
+      {{".obj"},
+       "the last frame, with material and maps; leaf.####.obj: every frame",
+       obj_files,
+       write_obj_files},
+      {{".ply"},
+       "the last frame, with colours; leaf.####.ply: every frame",
+       numbered,
+       write_frames<write_ply>},
+      {{".vtu"},
+       "the last frame with its figures; leaf.####.vtu: every frame",
+       numbered,
+       write_frames<write_vtu>},
       {{".png", ".jpg", ".jpeg"}, "a picture of the last frame", itself, write_picture},
   };
   return kFormats;
@@ -93,7 +166,7 @@ const ResultFormat& result_format(const std::string& path) {
   std::size_t longest = 0;
   std::vector<std::string> all;
   for (const ResultFormat& format : result_formats()) {
-    all.push_back(fmt::format("{} ({})", format.extensions.front(), format.content));
+    all.push_back(fmt::format("{} ({})", extensions_of(format), format.content));
     for (const std::string& extension : format.extensions) {
       if (extension.size() <= longest || !ends_in(path, extension)) continue;
       longest = extension.size();
@@ -130,8 +203,10 @@ void check_results(const std::vector<std::string>& paths, const std::vector<std:
   };
   for (const std::string& path : paths) {
     const ResultFormat& format = result_format(path);
-    check_writable(path);
-    for (const ResultFile& file : format.files(path, frames)) claim(file, path);
+    for (const ResultFile& file : format.files(path, frames)) {
+      check_writable(file.path);
+      claim(file, path);
+    }
   }
   for (const std::string& path : others) {
     check_writable(path);

@@ -5,6 +5,7 @@ here again. Usage: check_glb.py FILE.glb ... (with FILE.json beside it)
 """
 import itertools
 import json
+import pathlib
 import struct
 import sys
 
@@ -17,8 +18,7 @@ WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}
 
 class Glb:
     def __init__(self, path):
-        with open(path, "rb") as file:
-            data = file.read()
+        data = pathlib.Path(path).read_bytes()
         magic, version, length = struct.unpack_from("<4sII", data)
         assert (magic, version, length) == (b"glTF", 2, len(data))
         size, kind = struct.unpack_from("<I4s", data, 12)

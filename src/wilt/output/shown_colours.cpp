@@ -137,8 +137,8 @@ std::string ShownColours::texture(int frame) const {
   return encode_jpeg(shown);
 }
 
-std::string write_texture(const std::string& path, const ShownColours& shown) {
-  const std::string bytes = shown.texture(static_cast<int>(shown.clip().frames.size()) - 1);
+std::string write_texture(const std::string& path, const ShownColours& shown, int frame) {
+  const std::string bytes = shown.texture(frame);
   if (bytes.empty()) return {};
   const std::string file = beside(path, ".texture.jpg");
   write_file(file, bytes);

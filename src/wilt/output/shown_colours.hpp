@@ -19,6 +19,7 @@ class ShownColours {
   explicit ShownColours(const Clip& clip);
 
   const Clip& clip() const { return clip_; }
+  int last_frame() const { return static_cast<int>(clip_.frames.size()) - 1; }
 
   /// Linear RGB of the blade at a frame, #V x 3: the mean of the texture around each vertex times its colour.
   Points3 blade(int frame) const;
@@ -45,7 +46,7 @@ class ShownColours {
 /// NAME.normal.jpg
 /// (.png where the clip's is one): the same bytes for every format that refers to them. Returns the
 /// file's path; empty when the clip has none.
-std::string write_texture(const std::string& path, const ShownColours& shown);
+std::string write_texture(const std::string& path, const ShownColours& shown, int frame);
 std::string write_normal_map(const std::string& path, const Clip& clip);
 
 }  // namespace wilt

@@ -95,25 +95,21 @@ std::string asset(const std::string& path) {
 /// What a layer says of a clip: the statements in the order of the file.
 class Writer {
  public:
-  Writer(const ShownColours& shown, const ClipOptions& options)
-      : shown_(shown), clip_(shown.clip()), last_(static_cast<int>(clip_.frames.size()) - 1) {
+  Writer(const ShownColours& shown, const ClipOptions& options, const UsdMaps& maps)
+      : shown_(shown), clip_(shown.clip()), options_(options), maps_(maps), last_(shown.last_frame()) {
     for (const double time : key_times(clip_.frames, options.seconds))
       codes_.push_back(time * options.frame_rate);
   }
 
-  std::string write(const ClipOptions& options, const std::string& texture, const std::string& normal_map) {
-    header(options.frame_rate);
+  std::string write() {
+    header();
     layer_.open("def Xform \"leaf\" (kind = \"component\")");
-    blade();
     const bool has_stalk = clip_.frames.front().stalk.rows() >= 2;
-    if (has_stalk) stalk(options.stalk_sides);
+    blade();
+    if (has_stalk) stalk();
     layer_.open("def Scope \"materials\"");
-    blade_material(texture, normal_map);
-    if (has_stalk) {
-      open_material("stalk");
-      animated("color3f inputs:diffuseColor", [this](int k) { return tuple(shown_.stalk(k)); });
-      close_material();
-    }
+    if (!maps_.texture.empty()) blade_material();
+    if (has_stalk) stalk_material();
     layer_.close();
     layer_.close();
     return std::move(layer_.text);
@@ -122,18 +118,23 @@ class Writer {
  private:
   using Value = std::function<std::string(int frame)>;
 
-  void header(double frame_rate) {
+  void header() {
     layer_.text = fmt::format(
         "#usda 1.0\n(\n"
         "    customLayerData = {{\n"
-        "        string \"wilt:version\" = {}\n        string \"wilt:leaf\" = {}\n        string "
-        "\"wilt:config\" = {}\n"
+        "        string \"wilt:version\" = {}\n"
+        "        string \"wilt:leaf\" = {}\n"
+        "        string \"wilt:config\" = {}\n"
         "    }}\n"
         "    defaultPrim = \"leaf\"\n"
-        "    endTimeCode = {}\n    framesPerSecond = {}\n    metersPerUnit = {}\n"
-        "    startTimeCode = 0\n    timeCodesPerSecond = {}\n    upAxis = \"Y\"\n)\n\n",
-        quoted(version()), quoted(clip_.leaf.name), quoted(clip_.config), codes_.back(), frame_rate,
-        metres_per_unit(clip_.leaf.placement), frame_rate);
+        "    endTimeCode = {}\n"
+        "    framesPerSecond = {}\n"
+        "    metersPerUnit = {}\n"
+        "    startTimeCode = 0\n"
+        "    timeCodesPerSecond = {}\n"
+        "    upAxis = \"Y\"\n)\n\n",
+        quoted(version()), quoted(clip_.leaf.name), quoted(clip_.config), codes_.back(), options_.frame_rate,
+        metres_per_unit(clip_.leaf.placement), options_.frame_rate);
   }
 
   // An attribute with a value per frame. Readers without time see its default, the last frame.
@@ -146,18 +147,18 @@ class Writer {
     layer_.close();
   }
 
-  void mesh(const std::string& name, const Faces& faces, const std::function<Shape(int)>& shape) {
-    layer_.open(fmt::format("def Mesh \"{}\" (prepend apiSchemas = [\"MaterialBindingAPI\"])", name));
-    layer_.line(fmt::format("uniform token subdivisionScheme = \"none\""));
+  // Leaves the mesh open.
+  void mesh(const std::string& name, bool has_material, const Faces& faces,
+            const std::function<Shape(int)>& shape_at) {
+    layer_.open(fmt::format("def Mesh \"{}\"{}", name,
+                            has_material ? " (prepend apiSchemas = [\"MaterialBindingAPI\"])" : ""));
+    if (has_material) layer_.line(fmt::format("rel material:binding = </leaf/materials/{}>", name));
+    layer_.line("uniform token subdivisionScheme = \"none\"");
     layer_.line("uniform bool doubleSided = 1");
-    layer_.line(fmt::format("rel material:binding = </leaf/materials/{}>", name));
     layer_.line("int[] faceVertexCounts = " + list(Eigen::VectorXi::Constant(faces.rows(), 3)));
     layer_.line("int[] faceVertexIndices = " + list(faces.reshaped<Eigen::RowMajor>()));
-    const std::vector<Shape> shapes = [&] {
-      std::vector<Shape> all;
-      for (int k = 0; k <= last_; ++k) all.push_back(shape(k));
-      return all;
-    }();
+    std::vector<Shape> shapes;
+    for (int k = 0; k <= last_; ++k) shapes.push_back(shape_at(k));
     const auto at = [&shapes](int k) -> const Shape& { return shapes[static_cast<std::size_t>(k)]; };
     animated("float3[] extent", [&at](int k) { return extent(at(k).positions); });
     animated("point3f[] points", [&at](int k) { return list(at(k).positions); });
@@ -167,7 +168,8 @@ class Writer {
 
   void blade() {
     const Leaf& leaf = clip_.leaf;
-    mesh("blade", leaf.mesh.face_matrix(), [this](int k) { return blade_shape(clip_, k); });
+    mesh("blade", !maps_.texture.empty(), leaf.mesh.face_matrix(),
+         [this](int k) { return blade_shape(clip_, k); });
     animated(
         "color3f[] primvars:displayColor", [this](int k) { return list(shown_.blade(k)); }, kPerVertex);
     const auto per_vertex = [this](const char* name, Eigen::VectorXd Frame::*values) {
@@ -188,9 +190,9 @@ class Writer {
     layer_.close();
   }
 
-  void stalk(int sides) {
-    const Moving stalk = moving_stalk(clip_, sides);
-    mesh("stalk", stalk.faces, stalk.shape);
+  void stalk() {
+    const Moving stalk = moving_stalk(clip_, options_.stalk_sides);
+    mesh("stalk", true, stalk.faces, stalk.shape);
     animated(
         "color3f[] primvars:displayColor", [this](int k) { return list(shown_.stalk(k).transpose()); },
         " (interpolation = \"constant\")");
@@ -207,10 +209,6 @@ class Writer {
     layer_.line("float inputs:metallic = 0");
     layer_.line("token outputs:surface");
   }
-  void close_material() {
-    layer_.close();
-    layer_.close();
-  }
   void open_shader(const char* name, const char* id) {
     layer_.open(fmt::format("def Shader \"{}\"", name));
     layer_.line(fmt::format("uniform token info:id = \"{}\"", id));
@@ -219,33 +217,31 @@ class Writer {
     layer_.line(fmt::format("{}.connect = <{}/{}>", input, path_, output));
   }
 
-  void blade_material(const std::string& texture, const std::string& normal_map) {
-    open_material("blade");
-    connect("color3f inputs:diffuseColor",
-            texture.empty() ? "displayColor.outputs:result" : "colour.outputs:rgb");
-    if (!normal_map.empty()) connect("normal3f inputs:normal", "relief.outputs:rgb");
+  void stalk_material() {
+    open_material("stalk");
+    animated("color3f inputs:diffuseColor", [this](int k) { return tuple(shown_.stalk(k)); });
     layer_.close();
-    if (texture.empty()) {
-      reader("displayColor", "UsdPrimvarReader_float3", "displayColor", "float3");
-    } else {
-      map("colour", texture, "sRGB");
-      animated("float4 inputs:scale", [this](int k) { return scale(k); });
-      layer_.close();
-    }
-    if (!normal_map.empty()) {
-      map("relief", normal_map, "raw");
+    layer_.close();
+  }
+
+  void blade_material() {
+    open_material("blade");
+    connect("color3f inputs:diffuseColor", "colour.outputs:rgb");
+    if (!maps_.normal_map.empty()) connect("normal3f inputs:normal", "relief.outputs:rgb");
+    layer_.close();
+    map("colour", maps_.texture, "sRGB");
+    animated("float4 inputs:scale", [this](int k) { return scale(k); });
+    layer_.close();
+    if (!maps_.normal_map.empty()) {
+      map("relief", maps_.normal_map, "raw");
       layer_.line("float4 inputs:scale = (2, 2, 2, 1)");
       layer_.line("float4 inputs:bias = (-1, -1, -1, 0)");
       layer_.close();
     }
-    if (!texture.empty() || !normal_map.empty()) reader("st", "UsdPrimvarReader_float2", "st", "float2");
+    open_shader("st", "UsdPrimvarReader_float2");
+    layer_.line("string inputs:varname = \"st\"");
+    layer_.line("float2 outputs:result");
     layer_.close();
-  }
-
-  void reader(const char* name, const char* id, const char* primvar, const char* type) {
-    open_shader(name, id);
-    layer_.line(fmt::format("string inputs:varname = \"{}\"", primvar));
-    layer_.line(fmt::format("{} outputs:result", type));
     layer_.close();
   }
 
@@ -271,6 +267,8 @@ class Writer {
 
   const ShownColours& shown_;
   const Clip& clip_;
+  const ClipOptions& options_;
+  const UsdMaps& maps_;
   const int last_;
   std::vector<double> codes_;  // time codes of the frames
   Layer layer_;
@@ -279,15 +277,14 @@ class Writer {
 
 }  // namespace
 
-std::string usd_text(const ShownColours& shown, const ClipOptions& options, const std::string& texture,
-                     const std::string& normal_map) {
+std::string usd_text(const ShownColours& shown, const ClipOptions& options, const UsdMaps& maps) {
   options.validate();
-  return Writer(shown, options).write(options, texture, normal_map);
+  return Writer(shown, options, maps).write();
 }
 
 void write_usd(const std::string& path, const ShownColours& shown, const ClipOptions& options) {
-  const std::string texture = write_texture(path, shown), normal_map = write_normal_map(path, shown.clip());
-  write_file(path, usd_text(shown, options, texture, normal_map));
+  const UsdMaps maps{write_texture(path, shown, shown.last_frame()), write_normal_map(path, shown.clip())};
+  write_file(path, usd_text(shown, options, maps));
 }
 
 }  // namespace wilt
