@@ -99,6 +99,21 @@ class EveryFormatOfOneRun(unittest.TestCase):
             self.assertIn(config, (self.dir / name).read_bytes().decode("latin1").replace("\0", ""), name)
         self.assertIn(config.replace('"', '\\"'), (self.dir / "m.usda").read_text())
 
+    def test_info_tells_what_is_in_each(self):
+        size = self.frames.shape[1]
+        for name, expected in {"m.pc2": {"vertices": size, "frames": FRAMES, "scene_frames": 96.0},
+                               "m.mdd": {"vertices": size, "frames": FRAMES, "seconds": 4.0},
+                               "m.usda": {"leaf": "grape", "time_codes": 96, "frame_rate": 24},
+                               "m.vtu": {"vertices": size, "hours": 19.2},
+                               "m.pvd": {"frames": FRAMES, "hours": 19.2}}.items():
+            found = json.loads(wilt("info", self.dir / name, "--json").stdout)
+            self.assertEqual({**found, **expected}, found, name)
+        cut = self.dir / "cut.pc2"
+        cut.write_bytes((self.dir / "m.pc2").read_bytes()[:-4])
+        result = wilt("info", cut)
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("cut short", result.stderr)
+
     def test_maps_are_shared_between_formats(self):
         for name in ("m.texture.jpg", "m.normal.jpg", "s.normal.jpg"):
             self.assertEqual((self.dir / name).read_bytes()[:2], b"\xff\xd8", name)

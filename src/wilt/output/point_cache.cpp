@@ -1,7 +1,10 @@
 #include "wilt/output/point_cache.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdint>
 
+#include "wilt/core/error.hpp"
 #include "wilt/output/beside.hpp"
 #include "wilt/output/byte_order.hpp"
 #include "wilt/output/file.hpp"
@@ -64,6 +67,29 @@ std::string mdd_bytes(const PointTrack& track) {
       append_big_endian(bytes, static_cast<float>(coordinate));
   }
   return bytes;
+}
+
+PointCacheHead parse_point_cache(std::string_view bytes, const std::string& path) {
+  const bool is_mdd = extension_of(path) == ".mdd";
+  const std::size_t head = is_mdd ? 8 : 32;
+  PointCacheHead result;
+  bool fits = bytes.size() >= head && (is_mdd || bytes.substr(0, 11) == "POINTCACHE2");
+  std::size_t times = 0;
+  if (fits) {
+    result.frames = number_at<std::int32_t>(bytes, is_mdd ? 0 : 28, is_mdd);
+    result.points = number_at<std::int32_t>(bytes, is_mdd ? 4 : 16, is_mdd);
+    fits = result.frames >= 1 && result.points >= 1;
+    times = is_mdd && fits ? 4 * static_cast<std::size_t>(result.frames) : 0;
+  }
+  const std::size_t frame = 12 * static_cast<std::size_t>(result.points);
+  if (!fits || (bytes.size() - head) / static_cast<std::size_t>(result.frames) != frame + (is_mdd ? 4 : 0))
+    throw Error(
+        ErrorCode::input,
+        fmt::format("'{}' is no {} or is cut short; give a file that wilt or another program wrote whole",
+                    path, is_mdd ? "MDD" : "PC2"));
+  result.length = is_mdd ? number_at<float>(bytes, head + times - 4, true)
+                         : (result.frames - 1) * number_at<float>(bytes, 24, false);
+  return result;
 }
 
 void write_point_caches(const std::string& path, const Clip& clip, const ClipOptions& options) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wilt/output/clip.hpp"
@@ -11,13 +12,14 @@
 namespace wilt {
 
 // They play on a mesh that another file brings in: the points are those of the OBJ that wilt writes, in its
-// order (the blade's mesh vertices; the stalk's points), and in its coordinates (coordinates.hpp: Y up, not
-// turned for any program). A GLB of a leaf without seams in its texture coordinates, such as every built-in
+// order (the blade's mesh vertices; the stalk's points), and in its coordinates (coordinates.hpp: Y up,
+// turned for no program). A GLB of a leaf whose texture coordinates have no seams, as those of every built-in
 // species, has the same blade vertices in the same order.
 //
-// Blender: import the OBJ as it is (its importer turns the object, not the points), select the blade, add a
-// Mesh Cache modifier with the file; forward axis +Y, up axis +Z, no flip (the defaults: no turn). MDD: time
-// mode "Seconds"... PC2: time mode "Frame", frame scale ...
+// In Blender: import the OBJ as it is (the importer turns the object, not its points), give the blade a Mesh
+// Cache modifier with the cache, and leave its axes alone (forward Y, up Z, no flip). MDD: time mode Time.
+// PC2: Blender counts in samples, so time mode Frame with frame scale (frames - 1) / (seconds x frames per
+// second).
 
 /// Points over time.
 struct PointTrack {
@@ -38,6 +40,16 @@ std::string pc2_bytes(const PointTrack& track, double frame_rate);
 
 /// MDD (LightWave, Blender, three.js): big-endian, the time of every frame in seconds.
 std::string mdd_bytes(const PointTrack& track);
+
+/// What the head of a PC2 or MDD says.
+struct PointCacheHead {
+  int points = 0, frames = 0;
+  double length = 0.0;  ///< of the clip: MDD in seconds, PC2 in frames of the scene
+};
+
+/// Reads a head by the extension of `path`, which names the file in messages. Throws Error{input} when the
+/// bytes are not such a file's.
+PointCacheHead parse_point_cache(std::string_view bytes, const std::string& path);
 
 /// By the extension, PC2 or MDD, of the blade; of the stalk, if there is one, into NAME.stalk.pc2 or
 /// NAME.stalk.mdd. By write_file().
