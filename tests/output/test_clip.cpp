@@ -1,10 +1,10 @@
 // Colours and texture of a run in its GLB.
 #include <gtest/gtest.h>
 
+#include "wilt/core/image_codec.hpp"
 #include "wilt/core/srgb.hpp"
 #include "wilt/leaf/species.hpp"
 #include "wilt/output/gltf.hpp"
-#include "wilt/output/image_codec.hpp"
 #include "wilt/simulation/senescence.hpp"
 #include "wilt/simulation/uv_raster.hpp"
 #include "wilt/venation/venation.hpp"

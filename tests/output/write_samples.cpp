@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "sample_leaf.hpp"
+#include "wilt/core/image_codec.hpp"
 #include "wilt/output/beside.hpp"
 #include "wilt/output/file.hpp"
 #include "wilt/output/gltf.hpp"
-#include "wilt/output/image_codec.hpp"
 #include "wilt/output/obj.hpp"
 #include "wilt/output/ply.hpp"
 #include "wilt/output/point_cache.hpp"

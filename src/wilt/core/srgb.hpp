@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "wilt/core/types.hpp"
@@ -30,7 +31,7 @@ inline Vec3 linear_rgb(const std::array<int, 3>& srgb) {
   return {decode_srgb(srgb[0] / 255.0), decode_srgb(srgb[1] / 255.0), decode_srgb(srgb[2] / 255.0)};
 }
 
-/// Linear values as eight bits of sRGB by a table, within a step of the rounded value; clipped to [0, 1].
+/// Linear values as eight bits of sRGB, within a step of the rounded value.
 class SrgbBytes {
  public:
   SrgbBytes() {

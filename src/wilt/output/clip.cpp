@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <array>
 
+#include "wilt/core/image_codec.hpp"
 #include "wilt/core/parallel.hpp"
 #include "wilt/core/srgb.hpp"
 #include "wilt/leaf/species.hpp"
 #include "wilt/output/gltf.hpp"
-#include "wilt/output/image_codec.hpp"
 #include "wilt/simulation/leaf_relief.hpp"
 #include "wilt/simulation/leaf_texture.hpp"
 #include "wilt/simulation/senescence.hpp"

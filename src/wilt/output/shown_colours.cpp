@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "wilt/core/image_codec.hpp"
 #include "wilt/core/parallel.hpp"
 #include "wilt/core/srgb.hpp"
 #include "wilt/output/beside.hpp"
 #include "wilt/output/file.hpp"
-#include "wilt/output/image_codec.hpp"
 
 namespace wilt {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "wilt/core/image.hpp"
 
@@ -22,11 +23,8 @@ Image decode_image(std::string_view bytes);
 /// Whether the bytes of a picture are a JPEG's.
 bool is_jpeg(std::string_view bytes);
 
-/// Whether the name ends in .png, .jpg or .jpeg.
-bool is_picture_path(const std::string& path);
-
-/// Writes the picture by its name's end, whole or not at all. Throws Error{configuration} for another end,
-/// Error{output} when it cannot be written.
-void write_image(const std::string& path, const Image& image);
+/// The opacity of a PNG's pixels, 255 opaque, row by row; empty when the picture has no alpha channel. Throws
+/// as decode_image does.
+std::vector<std::uint8_t> decode_alpha(std::string_view bytes);
 
 }  // namespace wilt

@@ -1,12 +1,12 @@
-#include "wilt/output/image_codec.hpp"
+#include "wilt/core/image_codec.hpp"
 
 #include <fmt/format.h>
 
 #include <limits>
+#include <memory>
 
 #include "wilt/core/check.hpp"
 #include "wilt/core/error.hpp"
-#include "wilt/output/file.hpp"
 
 // Ours alone (static): other sources, and tinygltf, may hold theirs.
 #define STB_IMAGE_STATIC
@@ -27,8 +27,6 @@
 namespace wilt {
 namespace {
 
-constexpr int kPictureQuality = 91;
-
 // Collects what an encoder writes.
 void append(void* bytes, void* data, int size) {
   static_cast<std::string*>(bytes)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
@@ -43,6 +41,35 @@ void check_size(const Image& image) {
 [[noreturn]] void cannot_encode(const Image& image, const char* format) {
   throw Error(ErrorCode::output, fmt::format("a picture of {} x {} pixels cannot be encoded as {}",
                                              image.width, image.height, format));
+}
+
+[[noreturn]] void cannot_decode() {
+  throw Error(ErrorCode::input,
+              fmt::format("the picture cannot be read: {}; give a PNG or a JPEG", stbi_failure_reason()));
+}
+
+const stbi_uc* data_of(std::string_view bytes) {
+  return reinterpret_cast<const stbi_uc*>(bytes.data());
+}
+
+void check_length(std::string_view bytes) {
+  if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw Error(ErrorCode::input, "the picture is larger than 2 GB");
+}
+
+struct FreePixels {
+  void operator()(stbi_uc* pixels) const { stbi_image_free(pixels); }
+};
+using Pixels = std::unique_ptr<stbi_uc, FreePixels>;
+
+// Rows of `channels` bytes a pixel.
+Pixels decode(std::string_view bytes, int channels, int& width, int& height) {
+  check_length(bytes);
+  int found = 0;
+  Pixels pixels(stbi_load_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &width, &height, &found,
+                                      channels));
+  if (!pixels) cannot_decode();
+  return pixels;
 }
 
 }  // namespace
@@ -69,19 +96,8 @@ std::string encode_png(const Image& image) {
 
 Image decode_image(std::string_view bytes) {
   Image image;
-  if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw Error(ErrorCode::input, "the picture is larger than 2 GB");
-  int channels = 0;
-  stbi_uc* pixels =
-      stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), static_cast<int>(bytes.size()),
-                            &image.width, &image.height, &channels, 3);
-  if (pixels == nullptr)
-    throw Error(ErrorCode::input,
-                fmt::format("the picture cannot be read: {}; give a PNG or a JPEG", stbi_failure_reason()));
-  const std::size_t count =
-      3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  image.rgb.assign(pixels, pixels + count);
-  stbi_image_free(pixels);
+  const Pixels pixels = decode(bytes, 3, image.width, image.height);
+  image.rgb.assign(pixels.get(), pixels.get() + 3 * std::size_t(image.width) * std::size_t(image.height));
   return image;
 }
 
@@ -89,16 +105,16 @@ bool is_jpeg(std::string_view bytes) {
   return bytes.substr(0, 2) == "\xff\xd8";
 }
 
-bool is_picture_path(const std::string& path) {
-  const std::string extension = extension_of(path);
-  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
-}
-
-void write_image(const std::string& path, const Image& image) {
-  if (!is_picture_path(path))
-    throw Error(ErrorCode::configuration,
-                fmt::format("cannot write '{}': a picture is .png, .jpg or .jpeg", path));
-  write_file(path, extension_of(path) == ".png" ? encode_png(image) : encode_jpeg(image, kPictureQuality));
+std::vector<std::uint8_t> decode_alpha(std::string_view bytes) {
+  int width = 0, height = 0, channels = 0;
+  check_length(bytes);
+  if (!stbi_info_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &width, &height, &channels))
+    cannot_decode();
+  if (channels != 2 && channels != 4) return {};
+  const Pixels pixels = decode(bytes, 2, width, height);
+  std::vector<std::uint8_t> alpha(std::size_t(width) * std::size_t(height));
+  for (std::size_t i = 0; i < alpha.size(); ++i) alpha[i] = pixels.get()[2 * i + 1];
+  return alpha;
 }
 
 }  // namespace wilt
