@@ -32,8 +32,8 @@ WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& 
   withered.leaf = load_leaf(request, monitor);
   withered.timings.leaf = seconds_since(start);
 
-  withered.venation =
-      find_venation(withered.leaf, species(config.species).secondary, venation_options(config), monitor);
+  withered.venation = load_veins(request, withered.leaf, species(config.species).secondary,
+                                 venation_options(config), monitor);
   withered.timings.geodesics = withered.venation.timings.geodesics;
   withered.timings.embedding = withered.venation.timings.embedding;
   withered.timings.venation = withered.venation.timings.venation;

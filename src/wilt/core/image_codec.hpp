@@ -27,4 +27,7 @@ bool is_jpeg(std::string_view bytes);
 /// as decode_image does.
 std::vector<std::uint8_t> decode_alpha(std::string_view bytes);
 
+/// The picture at another size, filtered in linear light; its own at its own size.
+Image resized(const Image& image, int width, int height);
+
 }  // namespace wilt
