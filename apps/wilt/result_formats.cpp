@@ -9,6 +9,7 @@
 #include "run.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/game/animation_texture.hpp"
+#include "wilt/game/texel_layout.hpp"
 #include "wilt/output/beside.hpp"
 #include "wilt/output/file.hpp"
 #include "wilt/output/obj.hpp"
@@ -85,7 +86,8 @@ void write_frames(ResultFiles& result, const std::string& path) {
     write(sequence_path(path, k), result.shown(), k, result.options());
 }
 
-Files vat_files(const std::string& path, int) {
+Files vat_files(const std::string& path, int frames) {
+  TexelLayout::make(1, frames);  // refuses what no leaf could fit
   Files files;
   for (const std::string& file : animation_texture_files(path)) files.push_back({file});
   return files;

@@ -186,7 +186,7 @@ def socket(sockets, name, kind):
 
 
 def ageing_tree(name, store, points, scene_frames):
-    """Geometry nodes: the colour of point i at time k + f is (1 - f) stored[k points + i] + f stored[(k + 1) points + i]."""
+    """Geometry nodes: at time k + f point i has (1 - f) stored[k points + i] + f stored[(k + 1) points + i]."""
     tree = bpy.data.node_groups.new(f"{name} ageing", "GeometryNodeTree")
     if hasattr(tree, "interface"):  # from 4.0 on
         for direction in ("INPUT", "OUTPUT"):
@@ -257,7 +257,7 @@ def load_image(picture, name, is_colour):
 
 
 def build_material(name, texture, relief):
-    """A thin leaf: texture x colour, a greyer underside, light that passes through (wilt's docs/method.md, section 10)."""
+    """A thin leaf: texture x colour, a greyer underside, light that passes through (docs/method.md, section 10)."""
     material = bpy.data.materials.new(f"wilt {name}")
     material.use_nodes = True
     material.use_backface_culling = False

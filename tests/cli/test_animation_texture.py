@@ -126,6 +126,12 @@ class AnimationTexture(unittest.TestCase):
                          "texture.size=0")
         self.assertEqual(vat["texture"]["rows_per_frame"], 2)
 
+    def test_too_many_frames_are_refused_before_the_work(self):
+        result = subprocess.run([WILT, "simulate", "maple", "--frames", "9000", "--iterations", "9000", "-o",
+                                 str(self.folder / "leaf.vat.json")], capture_output=True, text=True, timeout=20)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("at most 8192", result.stderr)
+
     def test_coarser_meshes_stand_on_the_same_texels(self):
         run("maple", "--vertices", 500, "--iterations", 30, "--frames", 4, "--lods", 2, "-o", self.folder / "leaf.vat.json")
         vat = json.loads((self.folder / "leaf.vat.json").read_text())

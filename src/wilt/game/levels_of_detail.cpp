@@ -2,7 +2,6 @@
 
 #include <meshoptimizer.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "wilt/core/parallel.hpp"
+#include "wilt/geodesics/nearest_point.hpp"
 
 namespace wilt {
 namespace {
@@ -22,28 +22,6 @@ using Floats = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 Point as_point(const Vec3& p) {
   return {p.x(), p.y(), p.z()};
-}
-
-// Squared distance from p to the triangle a b c: to the foot of the perpendicular where that lies inside,
-// else to the nearest of the three sides.
-double squared_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 normal = (b - a).cross(c - a);
-  const double twice_area = normal.squaredNorm();
-  if (twice_area > 0.0) {
-    const double u = (b - p).cross(c - p).dot(normal), v = (c - p).cross(a - p).dot(normal);
-    if (u >= 0.0 && v >= 0.0 && u + v <= twice_area) {
-      const double height = (p - a).dot(normal);
-      return height * height / twice_area;
-    }
-  }
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const auto& [start, end] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
-    const Vec3 side = end - start;
-    const double length = side.squaredNorm();
-    const double t = length > 0.0 ? std::clamp((p - start).dot(side) / length, 0.0, 1.0) : 0.0;
-    nearest = std::min(nearest, (start + t * side - p).squaredNorm());
-  }
-  return nearest;
 }
 
 // The largest distance of any of the points to the triangles.
@@ -62,14 +40,12 @@ double deviation(const Points3& points, const Faces& faces) {
     double nearest = std::numeric_limits<double>::infinity();
     const auto by_distance = bg::index::nearest(as_point(p), static_cast<unsigned>(boxes.size()));
     for (auto entry = tree.qbegin(by_distance); entry != tree.qend(); ++entry) {
-      if (bg::comparable_distance(as_point(p), entry->first) >= nearest) break;
-      const auto corners = faces.row(entry->second);
-      nearest = std::min(nearest, squared_distance(p, points.row(corners[0]), points.row(corners[1]),
-                                                   points.row(corners[2])));
+      if (bg::distance(as_point(p), entry->first) >= nearest) break;
+      nearest = std::min(nearest, nearest_point(faces.row(entry->second), points, p).distance);
     }
     largest = std::max(largest, nearest);
   }
-  return std::sqrt(largest);
+  return largest;
 }
 
 Faces simplified(const Faces& faces, const Floats& positions, Eigen::Index triangles) {
