@@ -20,9 +20,11 @@ struct LeafRequest {
   std::uint64_t seed = 1;
   std::string petiole;  ///< "X,Y" or empty
   int nth = 1;
+  bool scan = false;                  ///< a mesh's vertices are the points of a scan
+  std::optional<double> mm_per_unit;  ///< of a scan
 };
 
-/// Adds LEAF, --vertices, --seed, --petiole and --leaf to a verb.
+/// Adds LEAF, --vertices, --seed, --petiole, --leaf, --scan and --mm-per-unit to a verb.
 void add_leaf_options(CLI::App& verb, LeafRequest& request);
 
 /// Throws Error{input} for what is neither a species nor a file that can be read.
