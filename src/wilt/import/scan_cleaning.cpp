@@ -6,9 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <tuple>
 
@@ -20,7 +18,7 @@
 namespace wilt::detail {
 namespace {
 
-constexpr int kMostPoints = 60'000;
+constexpr std::size_t kMostPoints = 40'000;
 constexpr int kNeighbours = 12;
 constexpr double kStray = 3.5;            // mean distance to the neighbours, in units of the median's
 constexpr double kReach = 4.0;            // radius of a local fit in spacings at least,
@@ -45,34 +43,14 @@ std::vector<Vec3> distinct(const Points3& raw) {
   return points;
 }
 
-// The mean of the points in every cell of a grid.
-std::vector<Vec3> averaged(const std::vector<Vec3>& points, double cell) {
-  const Vec3 low = to_matrix(points).colwise().minCoeff().transpose();
-  std::vector<std::pair<std::array<std::int64_t, 3>, std::size_t>> places;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3 at = (points[i] - low) / cell;
-    places.push_back({{std::int64_t(at.x()), std::int64_t(at.y()), std::int64_t(at.z())}, i});
-  }
-  std::sort(places.begin(), places.end());
-  std::vector<Vec3> means;
-  for (std::size_t i = 0; i < places.size();) {
-    Vec3 sum = Vec3::Zero();
-    const std::size_t first = i;
-    for (; i < places.size() && places[i].first == places[first].first; ++i) sum += points[places[i].second];
-    means.push_back(sum / static_cast<double>(i - first));
-  }
-  return means;
-}
-
-std::vector<Vec3> thinned(std::vector<Vec3> points, std::vector<std::string>& notes) {
-  if (points.size() <= kMostPoints) return points;
-  const Points3 all = to_matrix(points);
-  double cell = (all.colwise().maxCoeff() - all.colwise().minCoeff()).norm() / 1000.0;
-  std::vector<Vec3> means = averaged(points, cell);
-  while (means.size() > kMostPoints) means = averaged(points, cell *= 1.2);
-  notes.push_back(fmt::format("{} points were averaged over cells of {:.3g} units to {}", points.size(), cell,
-                              means.size()));
-  return means;
+// Every k-th point in that order: spread evenly along x, at random across.
+std::vector<Vec3> thinned(const std::vector<Vec3>& points, std::vector<std::string>& notes) {
+  const std::size_t step = (points.size() + kMostPoints - 1) / kMostPoints;
+  if (step <= 1) return points;
+  std::vector<Vec3> some;
+  for (std::size_t i = step / 2; i < points.size(); i += step) some.push_back(points[i]);
+  notes.push_back(fmt::format("of {} points every {}th was used", points.size(), step));
+  return some;
 }
 
 double quantile(std::vector<double> values, double share) {

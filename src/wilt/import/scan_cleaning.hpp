@@ -17,10 +17,10 @@ struct CleanScan {
   double coarse_spacing = 0.0;  ///< where the scan is sparse: its 95th percentile
 };
 
-/// Drops repeated points, averages those that share a cell of a grid where there are more than 60,000,
-/// drops strays (statistical outlier removal, Rusu et al. 2008: mean distance to 12 neighbours, here against
-/// the median), and moves the others onto local quadrics (moving least squares, Levin 1998). What was done
-/// is said in `notes`. Throws Error{input} for fewer than 300 points, and for points on a line. O(#P log #P).
+/// Drops repeated points, takes every k-th where there are more than 40,000, drops strays (statistical
+/// outlier removal, Rusu et al. 2008: mean distance to 12 neighbours, here against the median), and moves the
+/// others onto local quadrics (moving least squares, Levin 1998). What was done is said in `notes`. Throws
+/// Error{input} for fewer than 300 points, and for points on a line. O(#P log #P).
 CleanScan clean_scan(const Points3& raw, std::vector<std::string>& notes);
 
 }  // namespace wilt::detail

@@ -157,7 +157,8 @@ Leaf leaf_from_scan(Scan scan, const std::string& name, const ReadOptions& optio
   monitor.throw_if_cancelled();
   monitor.report("fitting the surface", 0.6);
   const SmoothSurface surface = fit_surface(clean, chart);
-  const ScanMargin margin = find_scan_margin(surface.uv(), {clean.spacing, clean.coarse_spacing});
+  const ScanMargin margin =
+      find_scan_margin(surface.uv(), {clean.spacing, clean.coarse_spacing, surface.noise()});
   judge(clean, surface, margin, leaf.notes);
 
   const StalkCut cut = cut_stalk(margin.outline);

@@ -14,10 +14,11 @@
 namespace wilt::detail {
 namespace {
 
-constexpr double kAlpha = 2.0;       // circumradius of a triangle of the shape at most, in coarse spacings
+constexpr double kAlpha = 1.75;      // circumradius of a triangle of the shape at most, in coarse spacings
 constexpr double kLeastHole = 16.0;  // area of a hole that is kept, in squares of a coarse spacing
-constexpr double kSmoothing = 1.0;   // standard deviation of the rings' smoothing, in coarse spacings
+constexpr double kSmoothing = 0.5;   // standard deviation of the rings' smoothing, in spacing and noise
 constexpr double kOutwards = 0.4;    // in spacings
+constexpr double kInwards = 0.5;     // in units of the noise
 
 double circumradius(const Vec2& a, const Vec2& b, const Vec2& c) {
   const double twice_area = std::abs(cross(b - a, c - a));
@@ -174,8 +175,8 @@ Outline settled(const std::vector<Polyline>& rings, double deviation, const Scan
   Outline outline;
   for (std::size_t i = 0; i < rings.size(); ++i) {
     if (i != margin && -signed_area(rings[i]) < least_hole) continue;
-    const Points2 ring =
-        to_points(settle(rings[i], deviation, kOutwards * options.spacing, 0.5 * options.spacing));
+    const Points2 ring = to_points(settle(
+        rings[i], deviation, kOutwards * options.spacing - kInwards * options.noise, 0.5 * options.spacing));
     if (i == margin)
       outline.margin = ring;
     else
@@ -215,7 +216,7 @@ ScanMargin find_scan_margin(const Points2& points, const ScanMarginOptions& opti
   }
   if (rings.empty()) throw Error(ErrorCode::input, "the points are too sparse to show where the leaf ends");
   for (const double more : {1.0, 1.5, 2.0, 3.0}) {
-    result.outline = settled(rings, more * kSmoothing * options.coarse_spacing, options);
+    result.outline = settled(rings, more * kSmoothing * (options.spacing + options.noise), options);
     try {
       validate_outline(result.outline);
       return result;

@@ -98,9 +98,9 @@ SmoothSurface::SmoothSurface(Points2 uv, const Points3& points, double knot_spac
   origin_ = low - Vec2::Constant(step_);  // a cell more on every side
   columns_ = static_cast<int>(size.x() / step_) + 6;
   rows_ = static_cast<int>(size.y() / step_) + 6;
-  fit(points);
+  fit(points, true);
   project(points);
-  fit(points);
+  fit(points, false);
 }
 
 namespace {
@@ -174,52 +174,85 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-void SmoothSurface::fit(const Points3& points) {
-  const auto count = static_cast<std::size_t>(points.rows());
-  const auto row = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
-  std::vector<double> weights(count, 1.0), distances(count);
-  System system(columns_, rows_);
-  const auto solve = [&](double lambda) {
-    coefficients_ = system.solve(lambda);
+struct SmoothSurface::Fit {
+  Fit(SmoothSurface& fitted, const Points3& given)
+      : surface(fitted),
+        points(given),
+        system(fitted.columns_, fitted.rows_),
+        weights(given.rows(), 1.0),
+        distances(given.rows()) {}
+
+  void assemble() {
+    total = 0.0;
+    for (const double weight : weights) total += weight;
+    system.clear();
+    for (int i = 0; i < points.rows(); ++i)
+      system.add(surface.locate(surface.uv_.row(i).transpose()), weights[i] / total,
+                 points.row(i).transpose());
+    system.close();
+  }
+
+  // Returns the weighted sum of squared distances.
+  double solve(double lambda) {
+    surface.coefficients_ = system.solve(lambda);
     double squares = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-      distances[i] = (at(uv_.row(row(i)).transpose()) - points.row(row(i)).transpose()).norm();
+    for (int i = 0; i < points.rows(); ++i) {
+      distances[i] = (surface.at(surface.uv_.row(i).transpose()) - points.row(i).transpose()).norm();
       squares += weights[i] * distances[i] * distances[i];
     }
     return squares;
-  };
-  const bool choose = lambda_ < 0.0;
-  for (int round = 0; round < kReweightings; ++round) {
-    double total = 0.0;
-    for (const double weight : weights) total += weight;
-    system.clear();
-    for (std::size_t i = 0; i < count; ++i)
-      system.add(locate(uv_.row(row(i)).transpose()), weights[i] / total, points.row(row(i)).transpose());
-    system.close();
-    if (choose && round < 2) {
-      double best = 1e300;
-      for (double exponent = -7.0; exponent <= 1.0; exponent += 0.5) {
-        const double lambda = std::pow(10.0, exponent), squares = solve(lambda);
-        const double left = 1.0 - kTraceFactor * system.trace() / total;
-        const double score = squares / (left * left);
-        if (!(score < best)) continue;
-        best = score;
-        lambda_ = lambda;
-      }
-    }
-    solve(lambda_);
-    const double deviation = kNormalMedian * median(distances);
-    noise_ = outliers_ = 0.0;
-    double kept = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double t = distances[i] / (kTukey * std::max(deviation, 1e-12 * step_));
+  }
+
+  double score(double exponent) {
+    const double squares = solve(std::pow(10.0, exponent));
+    const double left = 1.0 - kTraceFactor * system.trace() / total;
+    return left > 0.0 ? squares / (left * left) : 1e300;
+  }
+
+  // By decades, then by halves of them.
+  void choose_lambda() {
+    double best = -6.0, least = 1e300;
+    const auto try_one = [&](double exponent) {
+      const double value = score(exponent);
+      if (value >= least) return;
+      least = value;
+      best = exponent;
+    };
+    for (double exponent = -6.0; exponent <= 1.0; exponent += 1.0) try_one(exponent);
+    const double middle = best;
+    for (const double side : {-0.5, 0.5}) try_one(middle + side);
+    surface.lambda_ = std::pow(10.0, best);
+  }
+
+  void reweight() {
+    const double limit = kTukey * std::max(kNormalMedian * median(distances), 1e-12 * surface.step_);
+    double squares = 0.0;
+    int kept = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const double t = distances[i] / limit;
       weights[i] = t < 1.0 ? (1.0 - t * t) * (1.0 - t * t) : 0.0;
       if (t >= 1.0) continue;
-      noise_ += distances[i] * distances[i];
-      kept += 1.0;
+      squares += distances[i] * distances[i];
+      ++kept;
     }
-    noise_ = std::sqrt(noise_ / kept);
-    outliers_ = 1.0 - kept / static_cast<double>(count);
+    surface.noise_ = std::sqrt(squares / kept);
+    surface.outliers_ = 1.0 - kept / double(weights.size());
+  }
+
+  SmoothSurface& surface;
+  const Points3& points;
+  System system;
+  std::vector<double> weights, distances;
+  double total = 0.0;  // of the weights
+};
+
+void SmoothSurface::fit(const Points3& points, bool choose) {
+  Fit fit(*this, points);
+  for (int round = 0; round < kReweightings; ++round) {
+    fit.assemble();
+    if (choose && round == 1) fit.choose_lambda();
+    fit.solve(lambda_);
+    fit.reweight();
   }
 }
 

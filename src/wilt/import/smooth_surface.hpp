@@ -25,8 +25,9 @@ class SmoothSurface {
 
  private:
   struct Place;
+  struct Fit;
   Place locate(const Vec2& uv) const;
-  void fit(const Points3& points);
+  void fit(const Points3& points, bool choose_lambda);
   void project(const Points3& points);
 
   Points2 uv_;
@@ -34,7 +35,7 @@ class SmoothSurface {
   double step_ = 1.0;
   int columns_ = 0, rows_ = 0;  // of coefficients
   Points3 coefficients_;
-  double lambda_ = -1.0;
+  double lambda_ = 1e-4;
   double noise_ = 0.0, outliers_ = 0.0;
 };
 
