@@ -73,10 +73,10 @@ TEST_P(RolledScan, IsRecoveredWithinItsNoise) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Blades, RolledScan,
-                         ::testing::Values(Case{"poplar", 60.0, 0.5, 6000, 3.0},
-                                           Case{"maple", 1e4, 0.5, 20000, 6.0},
-                                           Case{"maple", 40.0, 0.5, 20000, 6.0},
-                                           Case{"tilia", 20.0, 0.3, 6000, 4.0},
+                         ::testing::Values(Case{"poplar", 60.0, 0.5, 6000, 6.0},
+                                           Case{"maple", 1e4, 0.5, 24000, 6.0},
+                                           Case{"maple", 40.0, 0.5, 24000, 6.0},
+                                           Case{"tilia", 20.0, 0.3, 6000, 5.0},
                                            Case{"grape", 30.0, 0.5, 12000, 4.0}));
 
 // Oracle: the same leaf without what was added. Strays are spread over the bounding box, others lie near.

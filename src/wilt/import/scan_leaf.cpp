@@ -41,6 +41,13 @@ SmoothSurface fit_surface(const CleanScan& clean, const ScanChart& chart) {
   return SmoothSurface(chart.uv, points, kKnotSpacing * clean.spacing);
 }
 
+// A scan of a stalk tells its mean thickness, not more.
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 // Says how good the scan is; refuses one that is too noisy.
 void judge(const CleanScan& clean, const SmoothSurface& surface, const ScanMargin& margin,
            std::vector<std::string>& notes) {
@@ -171,7 +178,9 @@ Leaf leaf_from_scan(Scan scan, const std::string& name, const ReadOptions& optio
   const Points3 positions = surface_points(surface, planar.positions);
   validate_blade(leaf.mesh, positions);
   place_in_leaf_frame(leaf, positions, planar.kept.front(), settle_unit(positions, options, leaf.notes));
-  if (cut.found) place_stalk(leaf, surface_points(surface, cut.centreline), cut.half_widths);
+  if (cut.found)
+    place_stalk(leaf, surface_points(surface, cut.centreline),
+                std::vector<double>(cut.half_widths.size(), median(cut.half_widths)));
   leaf.skin = flat_skin(leaf.mesh, planar.positions, leaf.petiole);
   note_implausible_length(leaf, "give --mm-per-unit");
   return leaf;

@@ -14,7 +14,7 @@
 namespace wilt::detail {
 namespace {
 
-constexpr double kAlpha = 1.75;      // circumradius of a triangle of the shape at most, in coarse spacings
+constexpr double kAlpha = 1.6;       // circumradius of a triangle of the shape at most, in coarse spacings
 constexpr double kLeastHole = 16.0;  // area of a hole that is kept, in squares of a coarse spacing
 constexpr double kSmoothing = 0.5;   // standard deviation of the rings' smoothing, in spacing and noise
 constexpr double kOutwards = 0.4;    // in spacings

@@ -18,7 +18,7 @@ struct ScanMargin {
 };
 
 /// The alpha shape (Edelsbrunner, Kirkpatrick, Seidel 1983): Delaunay triangles with a circumradius up
-/// to 1.75 coarse spacings, their largest piece, without places where it hangs together by a single point.
+/// to 1.6 coarse spacings, their largest piece, without places where it hangs together by a single point.
 /// Holes up to some coarse spacings across are closed. The rings are smoothed at the scale of spacing and
 /// noise, and moved outwards by what lies between the outermost points and the margin, less what the noise
 /// carried them out. Throws Error{input} when no simple ring comes out. O(#P log #P).
