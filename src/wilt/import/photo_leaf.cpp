@@ -136,8 +136,8 @@ Leaf read_photo_leaf(const std::filesystem::path& file, const ReadOptions& optio
   PhotoObject object = chosen(photo_objects(cover.share), options.nth, drawn.notes);
   drawn.outline = trace_outline(object, photo.scale);
   monitor.report("photo", 0.6);
-  drawn.photo = leaf_photo(photo, object);
   locate_petiole(photo, options, object, drawn);
+  drawn.photo = leaf_photo(photo, object);
   settle_scale(options, drawn);
   monitor.report("photo", 1.0);
   return leaf_from_outline(std::move(drawn), file.stem().string(), options, monitor);

@@ -4,10 +4,28 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "wilt/import/photo_ridges.hpp"
+
 namespace wilt::detail {
 namespace {
 
 constexpr int kLargestSide = 4096;
+constexpr int kRidgeSide = 448;  // main veins of most leaves are then some three texels wide
+
+// `square` and `share` are of the same area.
+RidgeMap ridge_map(const cv::Mat3b& square, const cv::Mat1f& share) {
+  const cv::Size size(kRidgeSide, kRidgeSide);
+  cv::Mat3f lab;
+  square.convertTo(lab, CV_32F, 1.0 / 255.0);
+  cv::resize(lab, lab, size, 0, 0, cv::INTER_AREA);
+  cv::cvtColor(lab, lab, cv::COLOR_RGB2Lab);
+  cv::Mat1f covered;
+  cv::resize(share, covered, size, 0, 0, cv::INTER_AREA);
+  const cv::Mat1b inside = covered >= 0.5f;
+  cv::Mat1f strength = find_ridges(lab, inside).strength;
+  strength.setTo(-1.0f, ~inside);
+  return {kRidgeSide, {strength.begin(), strength.end()}};
+}
 
 }  // namespace
 
@@ -38,8 +56,12 @@ std::shared_ptr<const LeafPhoto> leaf_photo(const Photo& photo, const PhotoObjec
   cv::Mat3b square;
   cv::copyMakeBorder(colours, square, top, side - colours.rows - top, left, side - colours.cols - left,
                      cv::BORDER_REPLICATE);
-  if (side > kLargestSide) cv::resize(square, square, {kLargestSide, kLargestSide}, 0, 0, cv::INTER_AREA);
+  cv::Mat1f share;
+  cv::copyMakeBorder(object.share, share, top, side - colours.rows - top, left, side - colours.cols - left,
+                     cv::BORDER_CONSTANT, cv::Scalar(0.0));
   const auto result = std::make_shared<LeafPhoto>();
+  result->ridges = ridge_map(square, share);
+  if (side > kLargestSide) cv::resize(square, square, {kLargestSide, kLargestSide}, 0, 0, cv::INTER_AREA);
   result->image = {square.cols, square.rows, {square.data, square.data + 3 * square.total()}};
   result->area.origin = photo.scale * Vec2(object.box.x - left, object.box.y - top);
   result->area.size = Vec2::Constant(photo.scale * side);

@@ -38,10 +38,18 @@ struct PhotoArea {
   Vec2 size = Vec2::Zero();  ///< pixels
 };
 
+/// How much each place of a photo looks like a vein: contrast of a line through it, from 0 to 1, which the
+/// strongest tenth share; -1 where there is no blade. `size` x `size` texels over texture coordinates 0 to 1.
+struct RidgeMap {
+  int size = 0;
+  std::vector<float> strength;  ///< rows from the top
+};
+
 /// What a photo shows of a leaf.
 struct LeafPhoto {
   Image image;  ///< of the area, whose texels it fills; the blade's colours are carried on beyond its margin
-  PhotoArea area;  ///< of the photo that was given
+  PhotoArea area;     ///< of the photo that was given
+  RidgeMap ridges{};  ///< empty: none were looked for
 };
 
 /// A leaf blade with its petiole.

@@ -217,6 +217,7 @@ VenationOptions venation_options(const Config& config) {
   options.full_embedding_up_to = static_cast<int>(config.veins.full_embedding_up_to);
   options.landmarks = static_cast<int>(config.veins.landmarks);
   options.secondary = config.veins.secondary;
+  options.from_photo = config.veins.from_photo;
   return options;
 }
 

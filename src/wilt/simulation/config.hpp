@@ -35,6 +35,7 @@ struct Config {
     std::int64_t window_vertices = 8, full_embedding_up_to = 1000, landmarks = 60;
     double window_length = 0.06, min_prominence = 0.02;
     bool secondary = true;
+    bool from_photo = true;
   } veins;
   struct {
     double min = 0.8, max = 1.5, tau = 1.0, water_fraction = 0.8;

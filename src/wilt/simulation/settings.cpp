@@ -49,6 +49,8 @@ std::vector<Setting> make_settings() {
      4, 5000, {}, WILT_FIELD(veins.landmarks)},
     {"veins.secondary", "", "draw secondary veins",
      0, 0, {}, WILT_FIELD(veins.secondary)},
+    {"veins.from_photo", "", "take the veins that a photo shows clearly",
+     0, 0, {}, WILT_FIELD(veins.from_photo)},
     {"mass.min", "mass", "m_min: cell mass far from the veins",
      1e-3, 1e3, {}, WILT_FIELD(mass.min)},
     {"mass.max", "mass", "m_max: cell mass on the veins",

@@ -10,6 +10,7 @@
 #include "wilt/geodesics/exact_geodesics.hpp"
 #include "wilt/mesh/geometry.hpp"
 #include "wilt/venation/flatten.hpp"
+#include "wilt/venation/photo_veins.hpp"
 #include "wilt/venation/secondary.hpp"
 
 namespace wilt {
@@ -89,6 +90,18 @@ Eigen::MatrixXd rows(int count, int columns, const RowOf& row_of) {
   return matrix;
 }
 
+// The veins that the photo shows in place of those found, if it shows any.
+void use_photo(const Leaf& leaf, const VenationOptions& options, Venation& result) {
+  std::vector<DrawnVein> shown = photo_veins(leaf, result);
+  if (!options.secondary)
+    shown.erase(
+        std::remove_if(shown.begin(), shown.end(), [](const DrawnVein& vein) { return vein.order == 2; }),
+        shown.end());
+  if (shown.empty()) return;
+  result = with_drawn_veins(leaf, result, shown, options);
+  result.from_photo = true;
+}
+
 }  // namespace
 
 void VenationOptions::validate() const {
@@ -138,6 +151,7 @@ Venation find_venation(const Leaf& leaf, const SecondaryVeinRule& rule, const Ve
     }
     if (!paths.empty()) result.vein_distance = result.vein_distance.cwiseMin(fast.distances(paths));
   }
+  if (options.from_photo) use_photo(leaf, options, result);
   monitor.report("venation", 1.0);
   const std::chrono::duration<double> before = begin - start,
                                       spent = std::chrono::steady_clock::now() - begin;

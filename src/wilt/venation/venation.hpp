@@ -31,13 +31,16 @@ struct VenationOptions {
   int full_embedding_up_to = 1000;                  ///< vertices; above, landmarks
   int landmarks = 60;                               ///< >= 4
   bool secondary = true;                            ///< whether to draw secondary veins
-  void validate() const;                            ///< throws Error{configuration}
+  bool from_photo =
+      true;  ///< whether veins that the leaf's photo shows clearly replace these (photo_veins.hpp)
+  void validate() const;  ///< throws Error{configuration}
 };
 
 struct Venation {
   MarginProfile margin;
   std::vector<Tip> tips;    ///< in the order of s: r1, r2, ... of the paper
   std::vector<Vein> veins;  ///< primary veins first, in the order of their tips
+  bool from_photo = false;  ///< whether they are those of the leaf's photo
   double embedding_stress = 0.0;
   Points2 flat;  ///< #V x 2, petiole at the origin, centroid on +y, faces counter-clockwise
   Eigen::VectorXd primary_distance;  ///< #V, gd_i: metres to the nearest primary vein
@@ -48,10 +51,10 @@ struct Venation {
   } timings;  ///< seconds
 };
 
-/// From geometry alone: the leaf's name is not looked at; the secondary veins' rule is given. Invariant to
-/// rigid motion, scale and relabelling (to round-off). Deterministic on any number of threads. O(#V^2 log #V)
-/// with all pairs, O(#landmarks #V log #V) above. Throws Error{input} when no tip is found,
-/// Error{configuration} for options or a rule out of range.
+/// From geometry, and the photo if the leaf has one: the leaf's name is not looked at; the secondary veins'
+/// rule is given. Invariant to rigid motion, scale and relabelling (to round-off). Deterministic on any
+/// number of threads. O(#V^2 log #V) with all pairs, O(#landmarks #V log #V) above. Throws Error{input} when
+/// no tip is found, Error{configuration} for options or a rule out of range.
 Venation find_venation(const Leaf& leaf, const SecondaryVeinRule& rule, const VenationOptions& options = {},
                        const Monitor& monitor = {});
 
