@@ -8,6 +8,8 @@
 
 #include "run.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/game/animation_texture.hpp"
+#include "wilt/game/texel_layout.hpp"
 #include "wilt/output/beside.hpp"
 #include "wilt/output/file.hpp"
 #include "wilt/output/obj.hpp"
@@ -84,6 +86,22 @@ void write_frames(ResultFiles& result, const std::string& path) {
     write(sequence_path(path, k), result.shown(), k, result.options());
 }
 
+Files vat_files(const std::string& path, int frames) {
+  TexelLayout::make(1, frames);  // refuses what no leaf could fit
+  Files files;
+  for (const std::string& file : animation_texture_files(path)) files.push_back({file});
+  return files;
+}
+
+void write_vat(ResultFiles& result, const std::string& path) {
+  const AnimationTextureOptions options{result.options(), result.files().vat_png, result.files().lods};
+  const std::vector<WrittenLevel> levels = write_animation_texture(path, result.clip(), options);
+  for (std::size_t level = 1; level < levels.size(); ++level)
+    result.terminal().say(fmt::format("level {}: {} of {} triangles, off by {:.2g} mm at most", level,
+                                      levels[level].triangles, levels.front().triangles,
+                                      1e3 * levels[level].deviation));
+}
+
 void write_picture(ResultFiles& result, const std::string& path) {
   write_image(path, result.picture(result.last_frame(), kPictureWidth, kPictureHeight));
 }
@@ -112,6 +130,10 @@ const std::vector<ResultFormat>& result_formats() {
        [](ResultFiles& result, const std::string& path) {
          write_usd(path, result.shown(), result.options());
        }},
+      {{".vat.json"},
+       "all frames as textures of positions, normals and colours, for game engines",
+       vat_files,
+       write_vat},
       {{".pc2", ".mdd"},
        "positions of all frames, for the .obj's mesh",
        cache_files,

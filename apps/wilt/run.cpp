@@ -8,6 +8,7 @@
 
 #include "result_formats.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/output/glb_scene.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/render/picture.hpp"
 #include "wilt/simulation/simulate.hpp"
@@ -31,8 +32,8 @@ WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& 
   withered.leaf = load_leaf(request, monitor);
   withered.timings.leaf = seconds_since(start);
 
-  withered.venation =
-      find_venation(withered.leaf, species(config.species).secondary, venation_options(config), monitor);
+  withered.venation = load_veins(request, withered.leaf, species(config.species).secondary,
+                                 venation_options(config), monitor);
   withered.timings.geodesics = withered.venation.timings.geodesics;
   withered.timings.embedding = withered.venation.timings.embedding;
   withered.timings.venation = withered.venation.timings.venation;
@@ -88,17 +89,27 @@ ClipOptions ResultFiles::options() const {
 }
 
 const std::string& ResultFiles::glb() {
-  if (glb_.empty()) {
-    GlbOptions options;
-    options.seconds = withered_.config.clip.seconds;
-    glb_ = glb_bytes(clip(), options);
-  }
+  if (glb_.empty()) glb_ = make_glb(files_.max_morphs);
   return glb_;
 }
 
+std::string ResultFiles::make_glb(int max_morphs) {
+  GlbOptions options;
+  options.seconds = withered_.config.clip.seconds;
+  options.max_morphs = max_morphs;
+  const GlbScene scene = glb_scene(clip(), options);
+  const FrameChoice& choice = scene.frames;
+  if (choice.kept.size() < clip().frames.size())
+    terminal_.say(
+        fmt::format("the .glb has {} of {} frames; between them it is off by {:.2g} mm (root mean square), "
+                    "{:.2g} mm at most",
+                    choice.kept.size(), clip().frames.size(), 1e3 * choice.rms, 1e3 * choice.largest));
+  return glb_bytes(scene);
+}
+
 const LeafScene& ResultFiles::scene() {
-  if (!scene_) {
-    file_ = parse_glb(glb(), withered_.leaf.name);
+  if (!scene_) {  // pictures show any frame
+    file_ = parse_glb(files_.max_morphs == 0 ? glb() : make_glb(0), withered_.leaf.name);
     scene_.emplace(file_);
   }
   return *scene_;

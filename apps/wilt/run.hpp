@@ -30,11 +30,19 @@ struct WitheredLeaf {
 /// Loads the leaf, finds its veins and withers it. The leaf's notes go to the terminal.
 WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& terminal);
 
+/// What the command line says about the files of a result.
+struct FileOptions {
+  int max_morphs = 0;    ///< of a GLB, 2 or more; 0: all frames
+  int lods = 0;          ///< coarser meshes beside vertex-animation textures, 0 to 8
+  bool vat_png = false;  ///< those as 16-bit PNG rather than EXR
+};
+
 /// A withered leaf as files and pictures; what they share is made once, when the first needs it.
 class ResultFiles {
  public:
-  /// Refers to both, which must outlive it.
-  ResultFiles(const WitheredLeaf& withered, Terminal& terminal) : withered_(withered), terminal_(terminal) {}
+  /// Refers to the leaf and the terminal, which must outlive it.
+  ResultFiles(const WitheredLeaf& withered, Terminal& terminal, const FileOptions& files = {})
+      : withered_(withered), terminal_(terminal), files_(files) {}
 
   /// By extension, result_formats.hpp.
   void write(const std::string& path);
@@ -47,12 +55,16 @@ class ResultFiles {
   const ShownColours& shown();
   const std::string& glb();
   ClipOptions options() const;
+  const FileOptions& files() const { return files_; }
+  Terminal& terminal() { return terminal_; }
 
  private:
+  std::string make_glb(int max_morphs);
   const LeafScene& scene();
 
   const WitheredLeaf& withered_;
   Terminal& terminal_;
+  FileOptions files_;
   std::optional<Clip> clip_;
   std::optional<ShownColours> shown_;  // refers to clip_
   std::string glb_;

@@ -22,6 +22,7 @@ struct Request {
   std::vector<std::string> outputs, assignments;
   std::string model, config_file, report, forces;
   std::optional<std::int64_t> iterations, frames;
+  FileOptions files;
   int threads = 0;
   bool print_config = false;
 };
@@ -81,7 +82,7 @@ void check_outputs(const Request& request, int frames) {
 
 void write_all(const Request& request, WitheredLeaf& withered, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
-  ResultFiles files(withered, terminal);
+  ResultFiles files(withered, terminal, request.files);
   for (const std::string& path : request.outputs) {
     files.write(path);
     terminal.say("wrote " + path);
@@ -136,10 +137,12 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
       "per frame\n"
       "  wilt simulate maple -o maple.obj -o maple.mdd        a mesh, and a cache that moves it\n"
       "  wilt simulate grape -o dry.glb --set water.humidity=0.2 --set water.temperature_c=35\n"
+      "  wilt simulate drawing.svg -o mine.glb --veins veins.json    veins edited by hand\n"
       "  wilt simulate ivy -o ivy.glb --model paper --forces forces.csv\n"
       "  wilt simulate maple --print-config > run.toml    then edit it, and give it back:\n"
       "  wilt simulate maple -o maple.glb --config run.toml\n");
   add_leaf_options(*verb, request->leaf);
+  add_veins_option(*verb, request->leaf);
   verb->get_option("LEAF")->required(false);
   const CLI::Option* seed = verb->get_option("--seed");
   verb->add_option("-o,--output", request->outputs,
@@ -148,6 +151,18 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
       ->allow_extra_args(false);
   verb->add_option("--iterations", request->iterations, "Time steps (100)")->type_name("N");
   verb->add_option("--frames", request->frames, "Frames in the clip (26)")->type_name("N");
+  verb->add_option("--max-morphs", request->files.max_morphs,
+                   "Frames in a .glb (all): those whose playback misses the least")
+      ->type_name("N")
+      ->check(CLI::Range(2, 100000));
+  verb->add_option("--lods", request->files.lods, "Coarser meshes beside a .vat.json (0)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 8));
+  verb->add_option_function<std::string>(
+          "--vat", [request](const std::string& kind) { request->files.vat_png = kind == "png"; },
+          "Textures of a .vat.json: exr (half floats) or png (16 bits)")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"exr", "png"}));
   verb->add_option("--model", request->model, "cell (default) or paper")->type_name("NAME");
   verb->add_option("--config", request->config_file, "Settings from a TOML file")->type_name("FILE");
   verb->add_option("--set", request->assignments, "One setting; repeatable, wins over --config")

@@ -55,9 +55,10 @@ wilt::Image checkered() {
   return image;
 }
 
-void write(const std::string& name, const wilt::Clip& clip, double seconds) {
+void write(const std::string& name, const wilt::Clip& clip, double seconds, int max_morphs = 0) {
   wilt::GlbOptions options;
   options.seconds = seconds;
+  options.max_morphs = max_morphs;
   write_glb(name + ".glb", clip, options);
   write_formats(name, clip, seconds);
   const wilt::Leaf& leaf = clip.leaf;
@@ -95,6 +96,10 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(folder);
   wilt::test::Sample sample;
   write(folder + "/withering", sample.clip(), 4.0);
+  write(folder + "/fewer", sample.clip(), 4.0, 3);
+  wilt::test::Sample calm;
+  wilt::test::hold_most(calm);
+  write(folder + "/calm", calm.clip(), 4.0);
   wilt::Clip textured = sample.clip();
   textured.texture = encode_jpeg(checkered());
   textured.normal_texture = encode_png(checkered());

@@ -17,10 +17,13 @@
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
+#define STB_IMAGE_RESIZE_STATIC
+#define STB_IMAGE_RESIZE_IMPLEMENTATION
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #pragma GCC diagnostic ignored "-Wunused-function"
 #include <stb/stb_image.h>
+#include <stb/stb_image_resize.h>
 #include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 
@@ -101,10 +104,6 @@ Image decode_image(std::string_view bytes) {
   return image;
 }
 
-bool is_jpeg(std::string_view bytes) {
-  return bytes.substr(0, 2) == "\xff\xd8";
-}
-
 std::vector<std::uint8_t> decode_alpha(std::string_view bytes) {
   int width = 0, height = 0, channels = 0;
   check_length(bytes);
@@ -115,6 +114,20 @@ std::vector<std::uint8_t> decode_alpha(std::string_view bytes) {
   std::vector<std::uint8_t> alpha(std::size_t(width) * std::size_t(height));
   for (std::size_t i = 0; i < alpha.size(); ++i) alpha[i] = pixels.get()[2 * i + 1];
   return alpha;
+}
+
+bool is_jpeg(std::string_view bytes) {
+  return bytes.substr(0, 2) == "\xff\xd8";
+}
+
+Image resized(const Image& image, int width, int height) {
+  check_size(image);
+  if (image.width == width && image.height == height) return image;
+  Image result{width, height, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width) * height)};
+  const int done = stbir_resize_uint8_srgb(image.rgb.data(), image.width, image.height, 0, result.rgb.data(),
+                                           width, height, 0, 3, STBIR_ALPHA_CHANNEL_NONE, 0);
+  WILT_CHECK(done == 1, width, height);
+  return result;
 }
 
 }  // namespace wilt

@@ -20,11 +20,14 @@ std::string encode_png(const Image& image);
 /// neither, or damaged.
 Image decode_image(std::string_view bytes);
 
-/// Whether the bytes of a picture are a JPEG's.
-bool is_jpeg(std::string_view bytes);
-
 /// The opacity of a PNG's pixels, 255 opaque, row by row; empty when the picture has no alpha channel. Throws
 /// as decode_image does.
 std::vector<std::uint8_t> decode_alpha(std::string_view bytes);
+
+/// Whether the bytes of a picture are a JPEG's.
+bool is_jpeg(std::string_view bytes);
+
+/// The picture at another size, filtered in linear light; its own at its own size.
+Image resized(const Image& image, int width, int height);
 
 }  // namespace wilt

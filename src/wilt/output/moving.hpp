@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "wilt/output/gltf.hpp"
+#include "wilt/output/clip.hpp"
 
 namespace wilt {
 
@@ -21,6 +21,7 @@ struct Moving {
   std::string name;
   Faces faces;
   Points2 uv;             ///< or empty
+  Points2 lookup;         ///< second texture coordinates, or empty
   Eigen::VectorXd water;  ///< or empty
   int colour_count = 0;   ///< 0, 1 or one per frame
   std::function<Shape(int frame)> shape;
