@@ -95,8 +95,12 @@ class EveryFormatOfOneRun(unittest.TestCase):
 
     def test_the_configuration_is_in_every_file_that_has_room(self):
         config = json.dumps(self.extras["config"], separators=(",", ":"))
-        for name in ("m.obj", "m.ply", "m.vtu", "m.pvd"):
-            self.assertIn(config, (self.dir / name).read_bytes().decode("latin1").replace("\0", ""), name)
+        for name in ("m.obj", "m.vtu", "m.pvd"):
+            self.assertIn(config, (self.dir / name).read_bytes().decode("latin1"), name)
+        comments = readers.ply(self.dir / "m.ply")[2]
+        pieces = [comment.removeprefix("config: ") for comment in comments if comment.startswith("config: ")]
+        self.assertEqual("".join(pieces), config)
+        self.assertLess(max(map(len, comments)), 500)  # MeshLab's limit is 510
         self.assertIn(config.replace('"', '\\"'), (self.dir / "m.usda").read_text())
 
     def test_info_tells_what_is_in_each(self):
@@ -117,6 +121,17 @@ class EveryFormatOfOneRun(unittest.TestCase):
     def test_maps_are_shared_between_formats(self):
         for name in ("m.texture.jpg", "m.normal.jpg", "s.normal.jpg"):
             self.assertEqual((self.dir / name).read_bytes()[:2], b"\xff\xd8", name)
+
+
+class ALeafAtRest(unittest.TestCase):
+    def test_its_obj_has_a_material_with_the_fresh_texture(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            self.assertEqual(wilt("leaf", "ivy", "--vertices", 400, "-o", folder / "ivy.obj").returncode, 0)
+            material = readers.mtl(folder / readers.obj(folder / "ivy.obj")["library"])["blade"]
+            self.assertEqual(material["map_Kd"], ["ivy.texture.jpg"])
+            self.assertEqual(sorted(p.name for p in folder.iterdir()),
+                             ["ivy.mtl", "ivy.normal.jpg", "ivy.obj", "ivy.texture.jpg"])
 
 
 class WrongNames(unittest.TestCase):

@@ -191,7 +191,8 @@ TEST_F(Formats, OddNamesDoNotBreakTheText) {
 }
 
 TEST_F(Formats, RefuseOptionsThatMakeNoSense) {
-  const Clip clip = sample_.clip();
+  Clip clip = sample_.clip();
+  clip.texture = halves();
   const ShownColours shown(clip);
   for (const auto change :
        {+[](ClipOptions& o) { o.seconds = 0.0; }, +[](ClipOptions& o) { o.frame_rate = -1.0; },
@@ -204,6 +205,8 @@ TEST_F(Formats, RefuseOptionsThatMakeNoSense) {
     EXPECT_THROW(ply_bytes(shown, 0, options), Error);
     EXPECT_THROW(vtu_blade(shown, 0, options), Error);
     EXPECT_THROW(write_point_caches(path("leaf.pc2"), clip, options), Error);
+    EXPECT_THROW(write_obj(path("leaf.obj"), shown, 0, options), Error);
+    EXPECT_THROW(write_usd(path("leaf.usda"), shown, options), Error);
   }
   EXPECT_TRUE(fs::is_empty(folder_));
 }

@@ -110,6 +110,7 @@ std::string obj_text(const Clip& clip, int frame, const ObjMaterials& materials,
 }
 
 void write_obj(const std::string& path, const ShownColours& shown, int frame, const ClipOptions& options) {
+  options.validate();
   Library library(path, shown);
   const ObjMaterials materials = library.add(path, frame, "");
   library.write();
@@ -117,6 +118,7 @@ void write_obj(const std::string& path, const ShownColours& shown, int frame, co
 }
 
 void write_obj_sequence(const std::string& pattern, const ShownColours& shown, const ClipOptions& options) {
+  options.validate();
   check_sequence(pattern);
   Library library(sequence_stem(pattern), shown);
   std::vector<ObjMaterials> materials;

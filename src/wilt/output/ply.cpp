@@ -12,13 +12,21 @@
 namespace wilt {
 namespace {
 
+// In pieces: some readers (MeshLab's) take no line of more than 510 characters.
+std::string config_comments(const std::string& config) {
+  constexpr std::size_t kPiece = 400;
+  std::string text;
+  for (std::size_t at = 0; at < config.size(); at += kPiece)
+    text += fmt::format("comment config: {}\n", config.substr(at, kPiece));
+  return text;
+}
+
 std::string header(const Clip& clip, int frame, Eigen::Index vertices, Eigen::Index faces) {
   std::string text = fmt::format(
       "ply\nformat binary_little_endian 1.0\n"
-      "comment wilt {}\ncomment units: {}, up: Y, iteration: {}\ncomment config: {}\n"
-      "element vertex {}\n",
+      "comment wilt {}\ncomment units: {}, up: Y, iteration: {}\n{}element vertex {}\n",
       version(), unit_name(clip.leaf.placement), clip.frames[static_cast<std::size_t>(frame)].iteration,
-      clip.config, vertices);
+      config_comments(clip.config), vertices);
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "s", "t", "dryness"})
     text += fmt::format("property float {}\n", name);
   for (const char* name : {"red", "green", "blue"}) text += fmt::format("property uchar {}\n", name);

@@ -283,6 +283,7 @@ std::string usd_text(const ShownColours& shown, const ClipOptions& options, cons
 }
 
 void write_usd(const std::string& path, const ShownColours& shown, const ClipOptions& options) {
+  options.validate();
   const UsdMaps maps{write_texture(path, shown, shown.last_frame()), write_normal_map(path, shown.clip())};
   write_file(path, usd_text(shown, options, maps));
 }
