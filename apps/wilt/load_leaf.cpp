@@ -27,19 +27,27 @@ bool looks_like_a_file(const std::string& leaf) {
 
 void add_leaf_options(CLI::App& verb, LeafRequest& request) {
   verb.add_option("LEAF", request.leaf,
-                  "A species (maple poplar tilia ivy willow grape), a mesh (.obj .ply .stl .glb .gltf)\n"
-                  "or an outline (.svg .json)")
+                  "A species (maple poplar tilia ivy willow grape), a photo (.jpg .png),\n"
+                  "a mesh (.obj .ply .stl .glb .gltf) or an outline (.svg .json)")
       ->required();
   verb.add_option("--vertices", request.vertices,
-                  "Vertices of the mesh, 200 to 1000000 (2000; a mesh file keeps its own)")
+                  "Vertices of the mesh, 200 to 1000000 (2000, of a photo 5000;\na mesh file keeps its own)")
       ->check(CLI::Range(200, 1000000))
       ->type_name("N");
   verb.add_option("--seed", request.seed, "Varies the individual leaf (1)")->type_name("N");
-  verb.add_option("--petiole", request.petiole, "Where the stalk meets the blade, in the file's units")
+  verb.add_option("--petiole", request.petiole,
+                  "Where the stalk meets the blade: pixels of a photo, units of a file")
       ->type_name("X,Y");
-  verb.add_option("--leaf", request.nth, "Take the N-th largest leaf of a drawing (1)")
+  verb.add_option("--leaf", request.nth, "Take the N-th largest leaf of a photo or drawing (1)")
       ->check(CLI::Range(1, 10000))
       ->type_name("N");
+  verb.add_option("--mm-per-pixel", request.mm_per_pixel, "Scale of a photo (else 100 mm across)")
+      ->type_name("X");
+  verb.add_option("--mask", request.mask, "A picture of the photo's shape, white where the leaf is")
+      ->type_name("FILE");
+  verb.add_option("--threshold", request.threshold,
+                  "Colour difference at which a photo's leaf begins, 0 to 100 (found)")
+      ->type_name("X");
 }
 
 bool is_species(const std::string& leaf) {
@@ -49,8 +57,10 @@ bool is_species(const std::string& leaf) {
 
 Leaf load_leaf(const LeafRequest& request, const Monitor& monitor) {
   if (is_species(request.leaf)) {
-    if (!request.petiole.empty() || request.nth != 1)
-      throw Error(ErrorCode::configuration, "--petiole and --leaf go with a file; a species has its petiole");
+    if (!request.petiole.empty() || request.nth != 1 || !request.mask.empty() || request.mm_per_pixel ||
+        request.threshold)
+      throw Error(ErrorCode::configuration,
+                  "--petiole, --leaf and the options of photos go with a file; a species has its petiole");
     return make_leaf(request.leaf, request.vertices.value_or(kDefaultVertices), request.seed, monitor);
   }
   if (!std::filesystem::exists(request.leaf)) {
@@ -64,6 +74,9 @@ Leaf load_leaf(const LeafRequest& request, const Monitor& monitor) {
   options.vertices = request.vertices;
   options.seed = request.seed;
   options.nth = request.nth;
+  options.mm_per_pixel = request.mm_per_pixel;
+  options.mask = request.mask;
+  options.threshold = request.threshold;
   if (!request.petiole.empty())
     options.petiole = parse_pair(request.petiole, ',', "--petiole takes two numbers, X,Y");
   return read_leaf(request.leaf, options, monitor);

@@ -21,10 +21,12 @@ struct LeafRequest {
   std::uint64_t seed = 1;
   std::string petiole;  ///< "X,Y" or empty
   int nth = 1;
+  std::optional<double> mm_per_pixel, threshold;  ///< of a photo
+  std::string mask;                               ///< a picture's name, or empty
   std::string veins;  ///< a veins.json to take the veins from, or empty: they are found
 };
 
-/// Adds LEAF, --vertices, --seed, --petiole and --leaf to a verb.
+/// Adds LEAF and the options that go with it to a verb.
 void add_leaf_options(CLI::App& verb, LeafRequest& request);
 
 /// Adds --veins.

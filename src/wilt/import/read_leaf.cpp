@@ -9,6 +9,7 @@
 #include "wilt/core/nearest.hpp"
 #include "wilt/import/drawn_leaf.hpp"
 #include "wilt/import/mesh_leaf.hpp"
+#include "wilt/import/photo_leaf.hpp"
 
 namespace wilt {
 namespace {
@@ -23,7 +24,11 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-void validate(const ReadOptions& options, bool drawing) {
+bool is_photo(const std::string& extension) {
+  return one_of(extension, {".jpg", ".jpeg", ".png"});
+}
+
+void validate(const ReadOptions& options, const std::string& extension) {
   if (options.vertices && (*options.vertices < 200 || *options.vertices > 1'000'000))
     throw Error(ErrorCode::configuration,
                 fmt::format("--vertices {} must be from 200 to 1000000", *options.vertices));
@@ -31,10 +36,19 @@ void validate(const ReadOptions& options, bool drawing) {
     throw Error(ErrorCode::configuration, "--petiole must be two finite numbers X,Y");
   if (options.nth < 1)
     throw Error(ErrorCode::configuration, fmt::format("--leaf {} must be 1 or more", options.nth));
-  if (options.nth > 1 && !drawing)
+  if (options.nth > 1 && extension != ".svg" && !is_photo(extension))
     throw Error(ErrorCode::configuration,
-                fmt::format("--leaf {}: only a drawing holds several leaves; a mesh or a JSON outline is one",
+                fmt::format("--leaf {}: only a photo or a drawing holds several leaves; a mesh or a JSON "
+                            "outline is one",
                             options.nth));
+  if (!is_photo(extension) && (options.mm_per_pixel || options.threshold || !options.mask.empty()))
+    throw Error(ErrorCode::configuration, "--mm-per-pixel, --threshold and --mask go with a photo");
+  if (options.mm_per_pixel && !(*options.mm_per_pixel > 0.0 && *options.mm_per_pixel < 1e6))
+    throw Error(ErrorCode::configuration,
+                fmt::format("--mm-per-pixel {} must be above 0", *options.mm_per_pixel));
+  if (options.threshold && !(*options.threshold > 0.0 && *options.threshold <= 100.0))
+    throw Error(ErrorCode::configuration,
+                fmt::format("--threshold {} must be above 0, at most 100", *options.threshold));
 }
 
 Leaf read(const std::filesystem::path& file, const std::string& extension, const ReadOptions& options,
@@ -44,13 +58,15 @@ Leaf read(const std::filesystem::path& file, const std::string& extension, const
     return detail::leaf_from_outline(detail::read_svg_outline(file, options.nth), name, options, monitor);
   if (extension == ".json")
     return detail::leaf_from_outline(detail::read_json_outline(file), name, options, monitor);
+  if (is_photo(extension)) return detail::read_photo_leaf(file, options, monitor);
   return detail::read_mesh_leaf(file, options, monitor);
 }
 
 }  // namespace
 
 const std::vector<std::string>& leaf_file_extensions() {
-  static const std::vector<std::string> extensions{".obj", ".ply", ".stl", ".glb", ".gltf", ".svg", ".json"};
+  static const std::vector<std::string> extensions{".obj", ".ply",  ".stl", ".glb",  ".gltf",
+                                                   ".svg", ".json", ".jpg", ".jpeg", ".png"};
   return extensions;
 }
 
@@ -59,16 +75,16 @@ Leaf read_leaf(const std::filesystem::path& file, const ReadOptions& options, co
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const std::string name = file.filename().string();
-  if (one_of(extension, {".jpg", ".jpeg", ".png", ".xyz", ".txt", ".csv"}))
+  if (one_of(extension, {".xyz", ".txt", ".csv"}))
     throw Error(ErrorCode::input,
-                fmt::format("'{}': photos and scans cannot be read by this version; it reads meshes and "
-                            "outlines: {}",
+                fmt::format("'{}': scans cannot be read by this version; it reads meshes, outlines and "
+                            "photos: {}",
                             name, joined(leaf_file_extensions())));
   if (!one_of(extension, leaf_file_extensions()))
     throw Error(ErrorCode::input,
                 fmt::format("'{}': '{}' is no kind of leaf file{}; allowed are {}", name, extension,
                             did_you_mean(extension, leaf_file_extensions()), joined(leaf_file_extensions())));
-  validate(options, extension == ".svg");
+  validate(options, extension);
   if (!std::filesystem::is_regular_file(file))
     throw Error(ErrorCode::input, fmt::format("'{}' does not exist or is no file", file.string()));
   Leaf leaf;
