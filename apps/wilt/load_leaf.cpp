@@ -28,7 +28,8 @@ bool looks_like_a_file(const std::string& leaf) {
 void add_leaf_options(CLI::App& verb, LeafRequest& request) {
   verb.add_option("LEAF", request.leaf,
                   "A species (maple poplar tilia ivy willow grape), a photo (.jpg .png),\n"
-                  "a mesh (.obj .ply .stl .glb .gltf) or an outline (.svg .json)")
+                  "a mesh (.obj .ply .stl .glb .gltf), an outline (.svg .json)\n"
+                  "or a scan (.xyz .txt .csv, .ply without faces)")
       ->required();
   verb.add_option("--vertices", request.vertices,
                   "Vertices of the mesh, 200 to 1000000 (2000, of a photo 5000;\na mesh file keeps its own)")
@@ -38,16 +39,21 @@ void add_leaf_options(CLI::App& verb, LeafRequest& request) {
   verb.add_option("--petiole", request.petiole,
                   "Where the stalk meets the blade: pixels of a photo, units of a file")
       ->type_name("X,Y");
-  verb.add_option("--leaf", request.nth, "Take the N-th largest leaf of a photo or drawing (1)")
+  verb.add_option("--leaf", request.nth, "Take the N-th largest leaf of a photo, drawing or scan (1)")
       ->check(CLI::Range(1, 10000))
       ->type_name("N");
   verb.add_option("--mm-per-pixel", request.mm_per_pixel, "Scale of a photo (else 100 mm across)")
-      ->type_name("X");
+      ->type_name("MM");
   verb.add_option("--mask", request.mask, "A picture of the photo's shape, white where the leaf is")
       ->type_name("FILE");
   verb.add_option("--threshold", request.threshold,
                   "Colour difference at which a photo's leaf begins, 0 to 100 (found)")
       ->type_name("X");
+  verb.add_flag("--scan", request.scan,
+                "Take the vertices of a mesh as the points of a scan: clean and fit them");
+  verb.add_option("--mm-per-unit", request.mm_per_unit,
+                  "Unit of a scan (1 mm, or 1 m for a blade below 2 units)")
+      ->type_name("MM");
 }
 
 bool is_species(const std::string& leaf) {
@@ -58,9 +64,10 @@ bool is_species(const std::string& leaf) {
 Leaf load_leaf(const LeafRequest& request, const Monitor& monitor) {
   if (is_species(request.leaf)) {
     if (!request.petiole.empty() || request.nth != 1 || !request.mask.empty() || request.mm_per_pixel ||
-        request.threshold)
+        request.threshold || request.scan || request.mm_per_unit)
       throw Error(ErrorCode::configuration,
-                  "--petiole, --leaf and the options of photos go with a file; a species has its petiole");
+                  "--petiole, --leaf and the options of photos and scans go with a file; a species has its "
+                  "petiole");
     return make_leaf(request.leaf, request.vertices.value_or(kDefaultVertices), request.seed, monitor);
   }
   if (!std::filesystem::exists(request.leaf)) {
@@ -77,6 +84,8 @@ Leaf load_leaf(const LeafRequest& request, const Monitor& monitor) {
   options.mm_per_pixel = request.mm_per_pixel;
   options.mask = request.mask;
   options.threshold = request.threshold;
+  options.scan = request.scan;
+  options.mm_per_unit = request.mm_per_unit;
   if (!request.petiole.empty())
     options.petiole = parse_pair(request.petiole, ',', "--petiole takes two numbers, X,Y");
   return read_leaf(request.leaf, options, monitor);

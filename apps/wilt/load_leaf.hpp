@@ -23,6 +23,8 @@ struct LeafRequest {
   int nth = 1;
   std::optional<double> mm_per_pixel, threshold;  ///< of a photo
   std::string mask;                               ///< a picture's name, or empty
+  bool scan = false;                              ///< a mesh's vertices are the points of a scan
+  std::optional<double> mm_per_unit;              ///< of a scan
   std::string veins;  ///< a veins.json to take the veins from, or empty: they are found
 };
 

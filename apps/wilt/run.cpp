@@ -4,12 +4,12 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
 
+#include "result_formats.hpp"
 #include "wilt/core/error.hpp"
-#include "wilt/output/file.hpp"
+#include "wilt/output/glb_scene.hpp"
 #include "wilt/output/gltf.hpp"
-#include "wilt/output/obj.hpp"
-#include "wilt/output/picture_file.hpp"
 #include "wilt/render/picture.hpp"
 #include "wilt/simulation/simulate.hpp"
 
@@ -17,8 +17,6 @@ namespace wilt::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr int kPictureWidth = 960, kPictureHeight = 720;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -49,17 +47,6 @@ WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& 
   return withered;
 }
 
-void check_result_path(const std::string& path) {
-  const std::string extension = extension_of(path);
-  if (extension != ".glb" && extension != ".obj" && !is_picture_path(path))
-    throw Error(
-        ErrorCode::configuration,
-        fmt::format("cannot write '{}': results are .glb (all frames), .obj (the last frame) or .png, "
-                    ".jpg (a picture of it)",
-                    path));
-  check_writable(path);
-}
-
 void check_writable(const std::string& path) {
   const auto refuse = [&path](const std::string& reason) {
     throw Error(ErrorCode::output, fmt::format("cannot write '{}': {}", path, reason));
@@ -73,14 +60,7 @@ void check_writable(const std::string& path) {
 }
 
 void ResultFiles::write(const std::string& path) {
-  const std::string extension = extension_of(path);
-  if (extension == ".obj") {
-    write_obj(path, withered_.leaf, withered_.result.frames.back());
-  } else if (extension == ".glb") {
-    write_file(path, glb());
-  } else {
-    write_image(path, picture(last_frame(), kPictureWidth, kPictureHeight));
-  }
+  result_format(path).write(*this, path);
 }
 
 Image ResultFiles::picture(int frame, int width, int height) {
@@ -90,19 +70,46 @@ Image ResultFiles::picture(int frame, int width, int height) {
   return render(scene().at(frame), options, terminal_.monitor());
 }
 
+const Clip& ResultFiles::clip() {
+  if (!clip_)
+    clip_.emplace(make_clip(withered_.leaf, withered_.venation, withered_.config, withered_.result.frames));
+  return *clip_;
+}
+
+const ShownColours& ResultFiles::shown() {
+  if (!shown_) shown_.emplace(clip());
+  return *shown_;
+}
+
+ClipOptions ResultFiles::options() const {
+  ClipOptions options;
+  options.seconds = withered_.config.clip.seconds;
+  options.hours_per_iteration = withered_.config.clip.hours / 100.0;
+  return options;
+}
+
 const std::string& ResultFiles::glb() {
-  if (glb_.empty()) {
-    GlbOptions options;
-    options.seconds = withered_.config.clip.seconds;
-    glb_ = glb_bytes(make_clip(withered_.leaf, withered_.venation, withered_.config, withered_.result.frames),
-                     options);
-  }
+  if (glb_.empty()) glb_ = make_glb(files_.max_morphs);
   return glb_;
 }
 
+std::string ResultFiles::make_glb(int max_morphs) {
+  GlbOptions options;
+  options.seconds = withered_.config.clip.seconds;
+  options.max_morphs = max_morphs;
+  const GlbScene scene = glb_scene(clip(), options);
+  const FrameChoice& choice = scene.frames;
+  if (choice.kept.size() < clip().frames.size())
+    terminal_.say(
+        fmt::format("the .glb has {} of {} frames; between them it is off by {:.2g} mm (root mean square), "
+                    "{:.2g} mm at most",
+                    choice.kept.size(), clip().frames.size(), 1e3 * choice.rms, 1e3 * choice.largest));
+  return glb_bytes(scene);
+}
+
 const LeafScene& ResultFiles::scene() {
-  if (!scene_) {
-    file_ = parse_glb(glb(), withered_.leaf.name);
+  if (!scene_) {  // pictures show any frame
+    file_ = parse_glb(files_.max_morphs == 0 ? glb() : make_glb(0), withered_.leaf.name);
     scene_.emplace(file_);
   }
   return *scene_;

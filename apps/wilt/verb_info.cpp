@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "wilt/mesh/geometry.hpp"
 #include "wilt/output/file.hpp"
 #include "wilt/output/gltf.hpp"
+#include "wilt/output/point_cache.hpp"
 
 namespace wilt::cli {
 namespace {
@@ -48,6 +50,57 @@ Json describe_leaf(const std::string& path, const Monitor& monitor) {
           {"notes", leaf.notes}};
 }
 
+Json describe_cache(const std::string& path) {
+  const PointCacheHead head = parse_point_cache(read_file(path), path);
+  return {{"kind", "point cache"},
+          {"vertices", head.points},
+          {"frames", head.frames},
+          {extension_of(path) == ".mdd" ? "seconds" : "scene_frames", head.length}};
+}
+
+// The text between the first `before` and the next `after`, or nothing.
+std::string between(const std::string& text, const std::string& before, const std::string& after) {
+  const std::size_t begin = text.find(before);
+  if (begin == std::string::npos) return {};
+  const std::size_t from = begin + before.size(), end = text.find(after, from);
+  return end == std::string::npos ? std::string() : text.substr(from, end - from);
+}
+
+// The number there, or null.
+Json number_between(const std::string& text, const std::string& before, const std::string& after) {
+  const Json number = Json::parse(between(text, before, after), nullptr, false);
+  return number.is_number() ? number : Json();
+}
+
+// What the heads of the text files say that wilt wrote.
+Json describe_text(const std::string& path) {
+  const std::string text = read_file(path), extension = extension_of(path);
+  const bool is_usd = extension == ".usda";
+  const std::string writer =
+      is_usd ? between(text, "\"wilt:version\" = \"", "\"") : between(text, "<!-- wilt ", ",");
+  if (writer.empty())
+    throw Error(ErrorCode::input,
+                fmt::format("'{}' is not a file that wilt wrote; open it with the program that did", path));
+  Json json = {{"kind", "wilt result"}, {"generator", "wilt " + writer}};
+  if (is_usd) {
+    json["leaf"] = between(text, "\"wilt:leaf\" = \"", "\"\n");
+    json["time_codes"] = number_between(text, "endTimeCode = ", "\n");
+    json["frame_rate"] = number_between(text, "timeCodesPerSecond = ", "\n");
+  } else if (extension == ".vtu") {
+    json["vertices"] = number_between(text, "NumberOfPoints=\"", "\"");
+    json["faces"] = number_between(text, "NumberOfCells=\"", "\"");
+    json["hours"] = number_between(text, "Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">", "<");
+  } else {
+    int frames = 0;
+    for (std::size_t at = text.find("part=\"0\""); at != std::string::npos;
+         at = text.find("part=\"0\"", at + 1))
+      ++frames;
+    json["frames"] = frames;
+    json["hours"] = number_between(text.substr(std::min(text.size(), text.rfind("timestep"))), "=\"", "\"");
+  }
+  return json;
+}
+
 std::string plain(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
@@ -64,7 +117,7 @@ void print_text(const Json& json) {
 }
 
 bool is_wilt_result(const std::string& path) {
-  if (std::filesystem::path(path).extension() != ".glb") return false;
+  if (extension_of(path) != ".glb") return false;
   try {
     return !parse_glb(read_file(path), path).extras.empty();
   } catch (const Error&) {
@@ -72,12 +125,19 @@ bool is_wilt_result(const std::string& path) {
   }
 }
 
+Json describe(const std::string& path, const Monitor& monitor) {
+  const std::string extension = extension_of(path);
+  if (extension == ".pc2" || extension == ".mdd") return describe_cache(path);
+  if (extension == ".usda" || extension == ".vtu" || extension == ".pvd") return describe_text(path);
+  if (is_wilt_result(path)) return describe_result(read_glb(path));
+  return describe_leaf(path, monitor);
+}
+
 void run(const std::string& path, const GlobalOptions& options) {
   if (!std::filesystem::exists(path))
     throw Error(ErrorCode::input, fmt::format("there is no file '{}'", path));
   Terminal terminal(options);
-  const Json json =
-      is_wilt_result(path) ? describe_result(read_glb(path)) : describe_leaf(path, terminal.monitor());
+  const Json json = describe(path, terminal.monitor());
   if (options.json) {
     fmt::print("{}\n", json.dump(2));
   } else {
@@ -94,7 +154,8 @@ void add_info(CLI::App& app, const GlobalOptions& options) {
                                       "Examples:\n"
                                       "  wilt info maple.glb\n"
                                       "  wilt info drawing.svg --json\n");
-  verb->add_option("FILE", *path, "A result (.glb), a mesh or an outline")->required();
+  verb->add_option("FILE", *path, "A result (.glb .usda .pvd .vtu .pc2 .mdd), a mesh or an outline")
+      ->required();
   verb->callback([path, &options] { run(*path, options); });
 }
 

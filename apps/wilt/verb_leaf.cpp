@@ -29,11 +29,14 @@ struct Request {
   std::string output;
 };
 
-// A GLB carries the fresh texture, whose veins have to be found; a blade where there are none is of one
+// The files carry the fresh texture, whose veins have to be found; a blade where there are none is of one
 // colour.
 void write_leaf(const std::string& path, const Leaf& leaf, Terminal& terminal) {
   const std::vector<Frame> frames = rest_frames(leaf);
-  if (extension_of(path) == ".obj") return write_obj(path, leaf, frames.front());
+  const auto write = [&path](const Clip& clip) {
+    if (extension_of(path) == ".glb") return write_glb(path, clip);
+    write_obj(path, ShownColours(clip), 0);
+  };
   const Species& kind = species(leaf.species);
   const Config config = default_config(kind);
   Venation venation;
@@ -46,9 +49,9 @@ void write_leaf(const std::string& path, const Leaf& leaf, Terminal& terminal) {
     const Vec3 fresh = TissueColours(kind.pigments)({});
     clip.colours.push_back(fresh.transpose().replicate(leaf.positions.rows(), 1));
     clip.stalk_colours.push_back(linear_rgb(kind.pigments.stalk));
-    return write_glb(path, clip);
+    return write(clip);
   }
-  write_glb(path, make_clip(leaf, venation, config, frames));
+  write(make_clip(leaf, venation, config, frames));
 }
 
 void run(const Request& request, const GlobalOptions& options) {

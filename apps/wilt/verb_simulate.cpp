@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 
+#include "result_formats.hpp"
 #include "run.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
@@ -21,6 +22,7 @@ struct Request {
   std::vector<std::string> outputs, assignments;
   std::string model, config_file, report, forces;
   std::optional<std::int64_t> iterations, frames;
+  FileOptions files;
   int threads = 0;
   bool print_config = false;
 };
@@ -70,16 +72,17 @@ void summarise(const WitheredLeaf& withered, Terminal& terminal) {
                   t.leaf, t.geodesics, t.embedding, t.venation, t.simulation, t.output));
 }
 
-void check_outputs(const Request& request) {
-  for (const std::string& path : request.outputs) check_result_path(path);
+void check_outputs(const Request& request, int frames) {
+  std::vector<std::string> figures;
   for (const std::string& path : {request.report, request.forces}) {
-    if (!path.empty()) check_writable(path);
+    if (!path.empty()) figures.push_back(path);
   }
+  check_results(request.outputs, figures, frames);
 }
 
 void write_all(const Request& request, WitheredLeaf& withered, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
-  ResultFiles files(withered, terminal);
+  ResultFiles files(withered, terminal, request.files);
   for (const std::string& path : request.outputs) {
     files.write(path);
     terminal.say("wrote " + path);
@@ -107,7 +110,7 @@ void run(Request& request, bool seed_given, const GlobalOptions& options) {
     throw Error(ErrorCode::configuration,
                 fmt::format("nothing would be written; add -o {}.glb",
                             std::filesystem::path(request.leaf.leaf).stem().string()));
-  check_outputs(request);
+  check_outputs(request, static_cast<int>(config.frames));
   const ThreadLimit limit(request.threads);
   Terminal terminal(options);
   catch_interrupts();
@@ -130,6 +133,9 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
       "Examples:\n"
       "  wilt simulate maple -o maple.glb\n"
       "  wilt simulate drawing.svg -o mine.glb -o mine.png --report report.json\n"
+      "  wilt simulate maple -o maple.usda -o maple.pvd -o 'frames/maple.####.obj'   USD, ParaView, a file "
+      "per frame\n"
+      "  wilt simulate maple -o maple.obj -o maple.mdd        a mesh, and a cache that moves it\n"
       "  wilt simulate grape -o dry.glb --set water.humidity=0.2 --set water.temperature_c=35\n"
       "  wilt simulate drawing.svg -o mine.glb --veins veins.json    veins edited by hand\n"
       "  wilt simulate ivy -o ivy.glb --model paper --forces forces.csv\n"
@@ -140,11 +146,23 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
   verb->get_option("LEAF")->required(false);
   const CLI::Option* seed = verb->get_option("--seed");
   verb->add_option("-o,--output", request->outputs,
-                   "Result: .glb (all frames), .obj (the last frame),\n.png (a picture of it); repeatable")
+                   "Result; repeatable. By the end of its name:" + result_formats_help())
       ->type_name("FILE")
       ->allow_extra_args(false);
   verb->add_option("--iterations", request->iterations, "Time steps (100)")->type_name("N");
   verb->add_option("--frames", request->frames, "Frames in the clip (26)")->type_name("N");
+  verb->add_option("--max-morphs", request->files.max_morphs,
+                   "Frames in a .glb (all): those whose playback misses the least")
+      ->type_name("N")
+      ->check(CLI::Range(2, 100000));
+  verb->add_option("--lods", request->files.lods, "Coarser meshes beside a .vat.json (0)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 8));
+  verb->add_option_function<std::string>(
+          "--vat", [request](const std::string& kind) { request->files.vat_png = kind == "png"; },
+          "Textures of a .vat.json: exr (half floats) or png (16 bits)")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"exr", "png"}));
   verb->add_option("--model", request->model, "cell (default) or paper")->type_name("NAME");
   verb->add_option("--config", request->config_file, "Settings from a TOML file")->type_name("FILE");
   verb->add_option("--set", request->assignments, "One setting; repeatable, wins over --config")

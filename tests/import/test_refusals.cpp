@@ -7,14 +7,6 @@ namespace {
 
 using ReadLeaf = test::Files;
 
-TEST_F(ReadLeaf, SaysThatScansComeLater) {
-  for (const char* name : {"a.xyz", "a.txt", "a.csv"}) {
-    const std::string message = refusal(name);
-    EXPECT_NE(message.find("reads meshes, outlines and photos"), std::string::npos) << message;
-    EXPECT_NE(message.find(".svg"), std::string::npos) << message;
-  }
-}
-
 TEST_F(ReadLeaf, ListsWhatIsAllowedForAnUnknownExtension) {
   const std::string message = refusal("a.svgg");
   EXPECT_NE(message.find("did you mean '.svg'"), std::string::npos) << message;
@@ -33,7 +25,8 @@ TEST_F(ReadLeaf, ChecksItsOptions) {
   options.nth = 0;
   EXPECT_NE(refusal("a.svg", options, ErrorCode::configuration).find("1 or more"), std::string::npos);
   options.nth = 2;
-  EXPECT_NE(refusal("a.obj", options, ErrorCode::configuration).find("only a photo or a drawing"), std::string::npos);
+  EXPECT_NE(refusal("a.obj", options, ErrorCode::configuration).find("only a photo, a drawing or a scan"),
+            std::string::npos);
   options = {};
   options.threshold = 20.0;
   EXPECT_NE(refusal("a.obj", options, ErrorCode::configuration).find("go with a photo"), std::string::npos);

@@ -3,20 +3,22 @@
 Oracle: the leaf-frame data beside each GLB, brought into the file's coordinates by formulas that are written
 here again. Usage: check_glb.py FILE.glb ... (with FILE.json beside it)
 """
+import itertools
 import json
+import pathlib
 import struct
 import sys
 
 import numpy as np
 
 EPS = float(np.finfo(np.float32).eps)
-TYPES = {5125: np.uint32, 5126: np.float32}
+TYPES = {5121: np.uint8, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}
 
 
 class Glb:
     def __init__(self, path):
-        data = open(path, "rb").read()
+        data = pathlib.Path(path).read_bytes()
         magic, version, length = struct.unpack_from("<4sII", data)
         assert (magic, version, length) == (b"glTF", 2, len(data))
         size, kind = struct.unpack_from("<I4s", data, 12)
@@ -28,18 +30,34 @@ class Glb:
 
     def accessor(self, index):
         accessor = self.json["accessors"][index]
-        view = self.json["bufferViews"][accessor["bufferView"]]
-        start = view.get("byteOffset", 0)
-        assert start % 4 == 0 and "byteStride" not in view
-        values = np.frombuffer(self.binary[start : start + view["byteLength"]], TYPES[accessor["componentType"]])
-        values = values.reshape(accessor["count"], WIDTHS[accessor["type"]])
+        count, width = accessor["count"], WIDTHS[accessor["type"]]
+        if "bufferView" in accessor:
+            values = self.array(accessor, accessor["componentType"], count * width).reshape(count, width)
+        else:
+            values = np.zeros((count, width), TYPES[accessor["componentType"]])
+        if sparse := accessor.get("sparse"):
+            rows = self.array(sparse["indices"], sparse["indices"]["componentType"], sparse["count"])
+            assert np.all(np.diff(rows.astype(int)) > 0)
+            packed = self.array(sparse["values"], accessor["componentType"], sparse["count"] * width)
+            values[rows] = packed.reshape(-1, width)
         if "min" in accessor:
             np.testing.assert_array_equal(values.min(axis=0), np.array(accessor["min"], np.float32))
             np.testing.assert_array_equal(values.max(axis=0), np.array(accessor["max"], np.float32))
         return values.astype(np.float64)
 
+    def array(self, place, kind, count):
+        view = self.json["bufferViews"][place["bufferView"]]
+        start = view.get("byteOffset", 0) + place.get("byteOffset", 0)
+        assert start % 4 == 0 and "byteStride" not in view
+        end = view.get("byteOffset", 0) + view["byteLength"]
+        assert start + count * np.dtype(TYPES[kind]).itemsize <= end <= len(self.binary)
+        return np.frombuffer(self.binary[start:end], TYPES[kind], count)
+
+    def attribute(self, primitive, name):
+        return self.accessor(primitive["attributes"][name])
+
     def frames(self, primitive, name):
-        base = self.accessor(primitive["attributes"][name])
+        base = self.attribute(primitive, name)
         return [base + self.accessor(t[name]) for t in primitive.get("targets", []) if name in t] or [base]
 
 
@@ -142,15 +160,36 @@ def check_animation(glb, dump):
         np.testing.assert_array_equal(weights, np.eye(len(frames)))
 
 
+def check_choice(extras, dump):
+    """Leaves the kept frames in the dump; of all choices of as many, theirs misses the least by brute force."""
+    times = np.array([frame["iteration"] for frame in dump["frames"]])
+    shapes = np.array([frame["positions"] + frame["stalk"] for frame in dump["frames"]])
+
+    def deviations(kept):
+        played = [[np.interp(times, times[kept], track) for track in vertex] for vertex in shapes[kept].transpose(1, 2, 0)]
+        return np.linalg.norm(np.array(played).transpose(2, 0, 1) - shapes, axis=2)
+
+    kept = [list(times).index(iteration) for iteration in extras["frames"]]
+    missed = deviations(kept)
+    assert np.isclose(missed.max(), extras["left_out"]["largest"], rtol=1e-6)
+    assert np.isclose(np.sqrt(np.mean(missed**2)), extras["left_out"]["rms"], rtol=1e-6)
+    assert extras["left_out"]["of"] == len(times)
+    between = itertools.combinations(range(1, len(times) - 1), len(kept) - 2)
+    assert all(np.sum(missed**2) <= np.sum(deviations([0, *some, len(times) - 1]) ** 2) for some in between)
+    dump["frames"] = [dump["frames"][k] for k in kept]
+
+
 def check(path):
     glb, dump = Glb(path), json.load(open(path[:-4] + ".json"))
+    extras = glb.json["asset"]["extras"]["wilt"]
+    if "left_out" in extras:
+        check_choice(extras, dump)
     meshes = {node["name"]: glb.json["meshes"][node["mesh"]] for node in glb.json["nodes"]}
     assert ("stalk" in meshes) == (len(dump["frames"][0]["stalk"]) > 0)
     check_blade(glb, dump, meshes["blade"])
     if "stalk" in meshes:
         check_stalk(glb, dump, meshes["stalk"])
     check_animation(glb, dump)
-    extras = glb.json["asset"]["extras"]["wilt"]
     assert extras["up"] == "Y" and extras["frames"] == [frame["iteration"] for frame in dump["frames"]]
     for vein in extras["veins"]:
         faces = np.array(dump["mesh_faces"])[vein["faces"]]

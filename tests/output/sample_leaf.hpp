@@ -150,4 +150,10 @@ struct Sample {
   }
 };
 
+/// Leaves only the last row of the blade free to move: most differences from the rest are zero.
+inline void hold_most(Sample& sample) {
+  const int held = kRows * (kColumns + 1);
+  for (Frame& frame : sample.frames) frame.positions.topRows(held) = sample.leaf.positions.topRows(held);
+}
+
 }  // namespace wilt::test

@@ -140,6 +140,40 @@ TEST(Glb, ColoursComeBackAsGiven) {
   EXPECT_TRUE(file.meshes[1].colours.empty());
 }
 
+// Oracle: what was written, and the size of the arrays: of a morph target with 7 + 1 (on a seam) of 72 moving
+// vertices 1 byte of index and 12 of value for each take less than 12 for all; the first frame takes nothing.
+TEST(Glb, LeavesOutWhatDoesNotMove) {
+  test::Sample sample;
+  test::hold_most(sample);
+  const Clip clip = sample.clip();
+  const std::string bytes = glb_bytes(clip);
+  const Json document = Json::parse(glb_json(bytes, ""));
+  const auto accessor = [&](std::size_t target) -> const Json& {
+    return document["accessors"]
+                   [document["meshes"][0]["primitives"][0]["targets"][target]["POSITION"].get<std::size_t>()];
+  };
+  EXPECT_FALSE(accessor(0).contains("bufferView") || accessor(0).contains("sparse"));
+  const Json& sparse = accessor(2)["sparse"];
+  EXPECT_EQ(sparse["count"], test::kColumns + 2);
+  EXPECT_EQ(document["bufferViews"][sparse["values"]["bufferView"].get<std::size_t>()]["byteLength"],
+            8 + 12 * (test::kColumns + 2));
+  const GlbMesh blade = parse_glb(bytes, "calm").meshes[0];
+  for (std::size_t k = 0; k < sample.frames.size(); ++k) {
+    const Points3 expected = of_skin(sample.leaf, file_points({}, sample.frames[k].positions));
+    EXPECT_LT((blade.frames[k] - expected).cwiseAbs().maxCoeff(), kEps * expected.cwiseAbs().maxCoeff());
+  }
+}
+
+// Oracle: analytic. Three of the frames 0, 10, 30, 60, 100 in 4 s: times stay proportional to iterations.
+TEST(Glb, FewerMorphsKeepTheirTimes) {
+  const test::Sample sample;
+  const GlbFile file = parse_glb(glb_bytes(sample.clip(), {.max_morphs = 3}), "sample");
+  ASSERT_EQ(file.times.size(), 3U);
+  EXPECT_EQ(file.iterations.front(), 0);
+  EXPECT_EQ(file.iterations.back(), 100);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(file.times[k], 0.04 * file.iterations[k], 4.0 * kEps);
+}
+
 // Oracle: invariance.
 TEST(Glb, TheSameSceneGivesTheSameBytes) {
   const test::Sample one, two;
@@ -219,6 +253,7 @@ TEST(Glb, RefusesWrongOptionsAndScenes) {
   test::Sample sample;
   EXPECT_THROW(glb_bytes(sample.clip(), {.seconds = 0.0}), Error);
   EXPECT_THROW(glb_bytes(sample.clip(), {.stalk_sides = 2}), Error);
+  EXPECT_THROW(glb_bytes(sample.clip(), {.max_morphs = 1}), Error);
   Clip short_colours = sample.clip();
   short_colours.colours.pop_back();
   EXPECT_THROW(glb_bytes(short_colours), std::logic_error);
@@ -279,6 +314,16 @@ TEST(Glb, RefusesWhatCannotBeShown) {
        [](Json& j) { j["meshes"][0]["primitives"][0]["targets"][1].erase("COLOR_0"); });
   says("is empty",
        [](Json& j) { j["accessors"][j["meshes"][0]["primitives"][0]["indices"].get<int>()]["count"] = 0; });
+  says("beyond its end", [](Json& j) {
+    Json& target = j["accessors"][j["meshes"][0]["primitives"][0]["targets"][0]["POSITION"].get<int>()];
+    target["sparse"] = {{"count", 1},  // the first position, read as an index
+                        {"indices", {{"bufferView", 0}, {"componentType", 5125}}},
+                        {"values", {{"bufferView", 0}}}};
+  });
+  says("differs in size", [](Json& j) {
+    j["accessors"][j["meshes"][0]["primitives"][0]["targets"][0]["POSITION"].get<int>()]["count"] =
+        1000000000;
+  });
   std::string unfinished = bytes;  // a value that is not a number
   const std::size_t data = 20 + glb_json(bytes, "").size() + 8;
   for (std::size_t i = 0; i < 4; ++i) unfinished[data + i] = '\xff';

@@ -53,8 +53,9 @@ Parsed parse(const std::string& text) {
 TEST(Obj, HoldsTheMeshWithItsSeam) {
   Leaf leaf = test::sample_leaf();
   leaf.placement = test::sample_placement();
-  const Frame frame = test::sample_frames(leaf)[3];
-  const Parsed obj = parse(obj_text(leaf, frame));
+  const std::vector<Frame> frames = test::sample_frames(leaf);
+  const Frame& frame = frames[3];
+  const Parsed obj = parse(obj_text({leaf, frames}, 3));
   EXPECT_EQ(obj.objects, (std::vector<std::string>{"blade", "stalk"}));
   const int vertices = leaf.mesh.num_vertices(), faces = leaf.mesh.num_faces();
   const Points3 expected = file_points(leaf.placement, frame.positions);
@@ -80,7 +81,10 @@ TEST(Obj, HoldsTheMeshWithItsSeam) {
 // Oracle: indices. The stalk's faces refer to vertices after the blade's, every one of them.
 TEST(Obj, StalkFollowsTheBlade) {
   const Leaf leaf = test::sample_leaf();
-  const Parsed obj = parse(obj_text(leaf, rest_frames(leaf).front(), 6));
+  const std::vector<Frame> frames = rest_frames(leaf);
+  ClipOptions options;
+  options.stalk_sides = 6;
+  const Parsed obj = parse(obj_text({leaf, frames}, 0, {}, options));
   const int blade = leaf.mesh.num_vertices(), all = static_cast<int>(obj.v.size());
   EXPECT_EQ(all - blade, 5 * 6 + 2 * 7);
   EXPECT_EQ(obj.vn.size(), obj.v.size());
@@ -100,13 +104,13 @@ TEST(Obj, StalkFollowsTheBlade) {
 
 TEST(Obj, StatesUnitsAndDirection) {
   Leaf leaf = test::sample_leaf();
-  EXPECT_NE(parse(obj_text(leaf, rest_frames(leaf)[0])).comments.find("units: metres, up: Y"),
-            std::string::npos);
+  const std::vector<Frame> frames = rest_frames(leaf);
+  EXPECT_NE(parse(obj_text({leaf, frames}, 0)).comments.find("units: metres, up: Y"), std::string::npos);
   leaf.placement.scale = 1000.0;
-  EXPECT_NE(parse(obj_text(leaf, rest_frames(leaf)[0])).comments.find("units: 0.001 metres"),
-            std::string::npos);
+  EXPECT_NE(parse(obj_text({leaf, frames}, 0)).comments.find("units: 0.001 metres"), std::string::npos);
   leaf.stalk = {};
-  EXPECT_EQ(parse(obj_text(leaf, rest_frames(leaf)[0])).objects, std::vector<std::string>{"blade"});
+  const std::vector<Frame> bare = rest_frames(leaf);
+  EXPECT_EQ(parse(obj_text({leaf, bare}, 0)).objects, std::vector<std::string>{"blade"});
 }
 
 // Oracle: the sample's three veins of 3, 2 and 2 points, numbered through.

@@ -116,6 +116,10 @@ std::vector<std::uint8_t> decode_alpha(std::string_view bytes) {
   return alpha;
 }
 
+bool is_jpeg(std::string_view bytes) {
+  return bytes.substr(0, 2) == "\xff\xd8";
+}
+
 Image resized(const Image& image, int width, int height) {
   check_size(image);
   if (image.width == width && image.height == height) return image;

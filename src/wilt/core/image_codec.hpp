@@ -24,6 +24,9 @@ Image decode_image(std::string_view bytes);
 /// as decode_image does.
 std::vector<std::uint8_t> decode_alpha(std::string_view bytes);
 
+/// Whether the bytes of a picture are a JPEG's.
+bool is_jpeg(std::string_view bytes);
+
 /// The picture at another size, filtered in linear light; its own at its own size.
 Image resized(const Image& image, int width, int height);
 

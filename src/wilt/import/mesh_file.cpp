@@ -92,9 +92,6 @@ TriangleSoup read_mesh_file(const std::filesystem::path& file, std::vector<std::
     append(part, first, soup, faces);
     first += static_cast<int>(part.mesh->mNumVertices);
   }
-  if (faces.empty())
-    throw Error(ErrorCode::input,
-                fmt::format("'{}' holds no triangle; a leaf needs a surface", file.filename().string()));
   soup.faces.resize(static_cast<int>(faces.size()), 3);
   for (std::size_t f = 0; f < faces.size(); ++f) soup.faces.row(static_cast<int>(f)) = faces[f].transpose();
   return soup;

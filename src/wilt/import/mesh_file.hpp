@@ -24,7 +24,7 @@ inline Vec3 to_file_axes(const Vec3& ours) {
 }
 
 /// Reads .obj .ply .stl .glb .gltf; polygons are cut into triangles, node transforms applied, points and
-/// lines left out, and so is a part named "stalk" beside others. Throws Error{input}.
+/// lines left out, and so is a part named "stalk" beside others. There may be no face. Throws Error{input}.
 TriangleSoup read_mesh_file(const std::filesystem::path& file, std::vector<std::string>& notes);
 
 }  // namespace wilt::detail

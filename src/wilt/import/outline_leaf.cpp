@@ -2,6 +2,7 @@
 
 #include "wilt/import/drawn_leaf.hpp"
 #include "wilt/import/mesh_leaf.hpp"
+#include "wilt/import/surface_petiole.hpp"
 #include "wilt/leaf/petiole.hpp"
 #include "wilt/leaf/relief.hpp"
 #include "wilt/mesh/validate.hpp"
@@ -82,19 +83,6 @@ void add_relief(Leaf& leaf) {
   }
 }
 
-void place_stalk(Leaf& leaf, const StalkCut& cut) {
-  const int n = static_cast<int>(cut.centreline.rows());
-  leaf.stalk.centreline.resize(n, 3);
-  for (int k = 0; k < n; ++k) {
-    const Vec3 file(cut.centreline(k, 0), cut.centreline(k, 1), 0.0);
-    leaf.stalk.centreline.row(k) =
-        (leaf.placement.rotation.transpose() * (file - leaf.placement.translation) / leaf.placement.scale)
-            .transpose();
-    leaf.stalk.radii.push_back(cut.half_widths[k] / leaf.placement.scale);
-  }
-  leaf.stalk.centreline.row(0) = leaf.positions.row(leaf.petiole);
-}
-
 // Texture coordinates that match the photo to the pixel; its y runs down, the outline's up.
 Points2 photo_uv(const Points2& outline_points, const PhotoArea& area) {
   Points2 pixels = outline_points;
@@ -128,7 +116,11 @@ Leaf leaf_from_outline(DrawnLeaf drawn, const std::string& name, const ReadOptio
   validate_blade(leaf.mesh, file_positions);
   place_in_leaf_frame(leaf, file_positions, planar.kept.front(), drawn.mm_per_unit / 1000.0);
   add_relief(leaf);
-  if (cut.found) place_stalk(leaf, cut);
+  if (cut.found) {
+    Points3 centreline = Points3::Zero(cut.centreline.rows(), 3);
+    centreline.leftCols<2>() = cut.centreline;
+    place_stalk(leaf, centreline, cut.half_widths);
+  }
   leaf.skin = planar_skin(leaf.mesh, leaf.positions);
   leaf.photo = drawn.photo;
   if (leaf.photo) {

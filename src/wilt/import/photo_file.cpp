@@ -91,7 +91,7 @@ Photo read_photo(const std::filesystem::path& file) {
     throw Error(ErrorCode::input, fmt::format("the photo has {} x {} pixels; a leaf needs {} at least on "
                                               "each side, and some 500 to keep its teeth",
                                               image.width, image.height, kSmallestSide));
-  const int orientation = bytes.substr(0, 2) == "\xff\xd8" ? exif_orientation(bytes) : 1;
+  const int orientation = is_jpeg(bytes) ? exif_orientation(bytes) : 1;
   turn_upright(photo.rgb, orientation);
   turn_upright(photo.alpha, orientation);
   const int side = std::max(image.width, image.height);

@@ -1,4 +1,4 @@
-// Polylines in the plane: splines, even resampling, smoothing. Inside the leaf room only.
+// Polylines in the plane: splines, even resampling, smoothing. Inside the rooms leaf and import only.
 #pragma once
 
 #include <vector>

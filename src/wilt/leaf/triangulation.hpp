@@ -1,5 +1,5 @@
-// A planar triangulation whose edges can be flipped, and the one that fills an outline. Inside the leaf room
-// only.
+// A planar triangulation whose edges can be flipped, and the one that fills an outline. Inside the rooms leaf
+// and import only.
 #pragma once
 
 #include <array>

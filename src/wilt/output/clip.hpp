@@ -11,7 +11,8 @@
 
 namespace wilt {
 
-/// A withering leaf as files hold it: shapes, colours, maps. Only refers to `leaf`, `frames` and `venation`: they must outlive it.
+/// A withering leaf as files hold it: shapes, colours, maps. Only refers to `leaf`, `frames` and `venation`:
+/// they must outlive it.
 struct Clip {
   const Leaf& leaf;
   const std::vector<Frame>& frames;    ///< >= 1, iterations ascending; the first is at rest
@@ -33,7 +34,7 @@ struct Clip {
 /// the colour of that frame, and COLOR_0 of the last one is 1 / m throughout. Without a texture
 /// (`texture.size` 0, or texture coordinates that cannot carry one) COLOR_0 is C_k.
 Clip make_clip(const Leaf& leaf, const Venation& venation, const Config& config,
-                   const std::vector<Frame>& frames);
+               const std::vector<Frame>& frames);
 
 /// The leaf alone, as the one frame of a clip: rest positions and stalk, fresh (dryness 0), no water.
 std::vector<Frame> rest_frames(const Leaf& leaf);

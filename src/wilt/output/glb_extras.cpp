@@ -45,23 +45,26 @@ Json veins_json(const Clip& clip) {
 
 }  // namespace
 
-std::string glb_extras(const Clip& clip) {
+std::string glb_extras(const Clip& clip, const FrameChoice& choice) {
   Json frames = Json::array();
   Json dryness = Json::array();
-  for (const Frame& frame : clip.frames) {
+  for (const int k : choice.kept) {
+    const Frame& frame = clip.frames[static_cast<std::size_t>(k)];
     frames.push_back(frame.iteration);
     dryness.push_back(frame.dryness.size() > 0 ? std::round(frame.dryness.mean() * 1e6) / 1e6 : 0.0);
   }
   const Leaf& leaf = clip.leaf;
-  const Json extras = {{"version", version()},
-                       {"config", Json::parse(clip.config)},
-                       {"leaf", {{"name", leaf.name}, {"species", leaf.species}, {"seed", leaf.seed}}},
-                       {"units", unit_name(leaf.placement)},
-                       {"metres_per_unit", metres_per_unit(leaf.placement)},
-                       {"up", "Y"},
-                       {"frames", frames},
-                       {"dryness", dryness},
-                       {"veins", veins_json(clip)}};
+  Json extras = {{"version", version()},
+                 {"config", Json::parse(clip.config)},
+                 {"leaf", {{"name", leaf.name}, {"species", leaf.species}, {"seed", leaf.seed}}},
+                 {"units", unit_name(leaf.placement)},
+                 {"metres_per_unit", metres_per_unit(leaf.placement)},
+                 {"up", "Y"},
+                 {"frames", frames},
+                 {"dryness", dryness},
+                 {"veins", veins_json(clip)}};
+  if (choice.kept.size() > 1 && choice.kept.size() < clip.frames.size())
+    extras["left_out"] = {{"of", clip.frames.size()}, {"rms", choice.rms}, {"largest", choice.largest}};
   return extras.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -3,12 +3,13 @@
 
 #include <string>
 
-#include "wilt/output/gltf.hpp"
+#include "wilt/output/clip.hpp"
+#include "wilt/output/frame_choice.hpp"
 
 namespace wilt {
 
-/// JSON text of asset.extras.wilt; glb_bytes() lists its keys. Text that is not UTF-8 gets replacement
-/// characters.
-std::string glb_extras(const Clip& clip);
+/// JSON text of asset.extras.wilt for the frames of the choice; glb_bytes() lists its keys. Text that is not
+/// UTF-8 gets replacement characters.
+std::string glb_extras(const Clip& clip, const FrameChoice& choice);
 
 }  // namespace wilt

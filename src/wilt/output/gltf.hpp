@@ -13,6 +13,7 @@ namespace wilt {
 struct GlbOptions {
   double seconds = 4.0;   ///< length of the clip, > 0; time is proportional to the iteration
   int stalk_sides = 10;   ///< corners per ring of the stalk, 3 to 64
+  int max_morphs = 0;     ///< frames at most, 2 or more, chosen by choose_frames() (frame_choice.hpp); 0: all
   void validate() const;  ///< throws Error{configuration}
 };
 
@@ -20,14 +21,15 @@ struct GlbOptions {
 ///
 /// Nodes "blade" (the leaf's skin: POSITION, NORMAL, TEXCOORD_0, COLOR_0 linear, _WATER = w / m at the last
 /// frame) and "stalk" (a tube, when the leaf has one). Of several frames each is a morph target (POSITION,
-/// NORMAL and, given colours per frame, COLOR_0), and there is one animation of their weights, linear between
-/// one-hot keys: playing it is piecewise linear between frames. The base has the shape of the first frame and
-/// the colours of the last one, which readers without colour morphs show; the default weights show the last.
-/// Coordinates as in coordinates.hpp. asset.extras.wilt: version, config, leaf, units, metres_per_unit, up,
-/// frames (iterations), dryness (mean, per frame), veins (order, positions, and the face of the blade and the
-/// barycentric coordinates of every point, so that they can follow the blade). The same clip gives the same
-/// bytes. Throws Error{output} above the 4 GB of the format, std::logic_error for wrong sizes or positions
-/// that are not finite. O(#frames #V).
+/// NORMAL and, given colours per frame, COLOR_0; sparse where that is smaller), and there is one animation of
+/// their weights, linear between one-hot keys: playing it is piecewise linear between frames. The base has
+/// the shape of the first frame and the colours of the last one, which readers without colour morphs show;
+/// the default weights show the last. Coordinates as in coordinates.hpp. asset.extras.wilt: version, config,
+/// leaf, units, metres_per_unit, up, frames (iterations), dryness (mean, per frame), veins (order, positions,
+/// and the face of the blade and the barycentric coordinates of every point, so that they can follow the
+/// blade), and left_out where frames were (of: their number in the clip; rms and largest deviation in
+/// metres). The same clip gives the same bytes. Throws Error{output} above the 4 GB of the format,
+/// std::logic_error for wrong sizes or positions that are not finite. O(#frames #V).
 std::string glb_bytes(const Clip& clip, const GlbOptions& options = {});
 
 /// The same into a file, by write_file().

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -38,12 +39,28 @@ class Model {
 
   /// float32 rows of `columns` finite numbers.
   Values floats(int accessor, int columns) const {
-    const std::vector<float> values = raw<float>(accessor, TINYGLTF_COMPONENT_TYPE_FLOAT, columns);
-    for (const float value : values)
-      if (!std::isfinite(value)) refuse(fmt::format("accessor {} has a value that is not finite", accessor));
-    return Eigen::Map<const Eigen::Matrix<float, -1, -1, Eigen::RowMajor>>(
-               values.data(), static_cast<int>(values.size()) / columns, columns)
-        .cast<double>();
+    return rows_of(raw<float>(accessor, TINYGLTF_COMPONENT_TYPE_FLOAT, columns), columns, accessor);
+  }
+
+  /// #rows x 3 differences of a morph target; those that a sparse accessor leaves out are zero.
+  Points3 differences(int index, Eigen::Index rows) const {
+    const tinygltf::Accessor& accessor = at(model_.accessors, index, "accessor");
+    if (accessor.count != static_cast<std::size_t>(rows))
+      refuse("a morph target differs in size from its mesh");
+    if (accessor.bufferView >= 0) return floats(index, 3);
+    check_kind(index, TINYGLTF_COMPONENT_TYPE_FLOAT, 3);
+    Points3 result = Points3::Zero(rows, 3);
+    if (!accessor.sparse.isSparse) return result;
+    const auto count = static_cast<std::size_t>(std::max(accessor.sparse.count, 0));
+    const auto& place = accessor.sparse.values;
+    const Values values =
+        rows_of(bytes<float>(place.bufferView, place.byteOffset, 3 * count, index), 3, index);
+    const std::vector<std::uint32_t> moved = sparse_rows(index, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (moved[i] >= accessor.count) refuse(fmt::format("accessor {} has a row beyond its end", index));
+      result.row(moved[i]) = values.row(static_cast<Eigen::Index>(i));
+    }
+    return result;
   }
 
   Faces triangles(int accessor, int vertices) const {
@@ -59,22 +76,64 @@ class Model {
   }
 
  private:
+  static Values rows_of(const std::vector<float>& values, int columns, int accessor) {
+    for (const float value : values)
+      if (!std::isfinite(value)) refuse(fmt::format("accessor {} has a value that is not finite", accessor));
+    return Eigen::Map<const Eigen::Matrix<float, -1, -1, Eigen::RowMajor>>(
+               values.data(), static_cast<int>(values.size()) / columns, columns)
+        .cast<double>();
+  }
+
+  void check_kind(int index, int component_type, int columns) const {
+    const tinygltf::Accessor& accessor = at(model_.accessors, index, "accessor");
+    const int width = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+    if (accessor.componentType != component_type || width != columns)
+      refuse(fmt::format("accessor {} is not of the kind that wilt writes", index));
+  }
+
+  // `count` values that stand close together in a view.
+  template <class T>
+  std::vector<T> bytes(int number, int offset, std::size_t count, int accessor) const {
+    const tinygltf::BufferView& view = at(model_.bufferViews, number, "buffer view");
+    const std::vector<unsigned char>& data = at(model_.buffers, view.buffer, "buffer").data;
+    const auto skipped = static_cast<std::size_t>(std::max(offset, 0));
+    if (view.byteStride != 0 || offset < 0 || view.byteOffset > data.size() ||
+        skipped > data.size() - view.byteOffset ||
+        count > (data.size() - view.byteOffset - skipped) / sizeof(T))
+      refuse(fmt::format("accessor {} reaches beyond the file's data", accessor));
+    std::vector<T> values(count);
+    if (count > 0) std::memcpy(values.data(), data.data() + view.byteOffset + skipped, count * sizeof(T));
+    return values;
+  }
+
   // The values of a tightly packed accessor.
   template <class T>
   std::vector<T> raw(int index, int component_type, int columns) const {
+    check_kind(index, component_type, columns);
     const tinygltf::Accessor& accessor = at(model_.accessors, index, "accessor");
-    const int width = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
-    if (accessor.componentType != component_type || width != columns || accessor.sparse.isSparse)
+    if (accessor.sparse.isSparse || accessor.byteOffset != 0)
       refuse(fmt::format("accessor {} is not of the kind that wilt writes", index));
-    const tinygltf::BufferView& view = at(model_.bufferViews, accessor.bufferView, "buffer view");
-    const std::vector<unsigned char>& data = at(model_.buffers, view.buffer, "buffer").data;
-    const std::size_t count = accessor.count * static_cast<std::size_t>(columns);
-    if (view.byteStride != 0 || accessor.byteOffset != 0 || view.byteOffset > data.size() ||
-        accessor.count > data.size() || count > (data.size() - view.byteOffset) / sizeof(T))
+    if (accessor.count > std::numeric_limits<std::uint32_t>::max())
       refuse(fmt::format("accessor {} reaches beyond the file's data", index));
-    std::vector<T> values(count);
-    if (count > 0) std::memcpy(values.data(), data.data() + view.byteOffset, count * sizeof(T));
-    return values;
+    return bytes<T>(accessor.bufferView, 0, accessor.count * static_cast<std::size_t>(columns), index);
+  }
+
+  std::vector<std::uint32_t> sparse_rows(int index, std::size_t count) const {
+    const auto& indices = model_.accessors[static_cast<std::size_t>(index)].sparse.indices;
+    const auto widened = [&](auto narrow) {
+      const auto read = bytes<decltype(narrow)>(indices.bufferView, indices.byteOffset, count, index);
+      return std::vector<std::uint32_t>(read.begin(), read.end());
+    };
+    switch (indices.componentType) {
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return widened(std::uint8_t{});
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return widened(std::uint16_t{});
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return widened(std::uint32_t{});
+      default:
+        refuse(fmt::format("accessor {} is not of the kind that wilt writes", index));
+    }
   }
 
   const tinygltf::Model& model_;
@@ -93,9 +152,7 @@ std::vector<Points3> morphed(const Model& model, const tinygltf::Primitive& prim
   for (const auto& target : primitive.targets) {
     const int accessor = attribute(target, name);
     if (accessor < 0) continue;
-    const Points3 difference = model.floats(accessor, 3);
-    if (difference.rows() != base.rows()) refuse("a morph target differs in size from its mesh");
-    frames.push_back(base + difference);
+    frames.push_back(base + model.differences(accessor, base.rows()));
   }
   if (!frames.empty() && frames.size() != primitive.targets.size())
     refuse(fmt::format("{} of {} morph targets have {}", frames.size(), primitive.targets.size(), name));

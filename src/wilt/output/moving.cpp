@@ -5,6 +5,14 @@
 #include "wilt/output/tube.hpp"
 
 namespace wilt {
+
+Shape blade_shape(const Clip& clip, int frame) {
+  const Leaf& leaf = clip.leaf;
+  const Points3& positions = clip.frames[static_cast<std::size_t>(frame)].positions;
+  return {file_points(leaf.placement, positions),
+          file_normals(leaf.placement, vertex_normals(leaf.mesh, positions))};
+}
+
 Moving moving_blade(const Clip& clip) {
   const Leaf& leaf = clip.leaf;
   const int size = static_cast<int>(leaf.skin.vertex.size());
@@ -24,11 +32,9 @@ Moving moving_blade(const Clip& clip) {
     moving.water.resize(size);
     for (int s = 0; s < size; ++s) moving.water[s] = water[leaf.skin.vertex[static_cast<std::size_t>(s)]];
   }
-  moving.shape = [&clip, &leaf, spread](int k) {
-    const Points3& positions = clip.frames[static_cast<std::size_t>(k)].positions;
-    const Points3 normals = vertex_normals(leaf.mesh, positions);
-    return Shape{spread(file_points(leaf.placement, positions)),
-                 spread(file_normals(leaf.placement, normals))};
+  moving.shape = [&clip, spread](int k) {
+    const Shape shape = blade_shape(clip, k);
+    return Shape{spread(shape.positions), spread(shape.normals)};
   };
   moving.colours = [&clip, spread](int k) -> Points3 {
     return spread(clip.colours[static_cast<std::size_t>(k)].cwiseMax(0.0).cwiseMin(1.0));

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "wilt/output/gltf.hpp"
+#include "wilt/output/clip.hpp"
 
 namespace wilt {
 
@@ -13,11 +13,15 @@ struct Shape {
   Points3 positions, normals;
 };
 
+/// The blade at the vertices of its mesh, #V x 3.
+Shape blade_shape(const Clip& clip, int frame);
+
 /// A mesh to be written: what does not change, and its shape and linear colours (#S x 3) by frame.
 struct Moving {
   std::string name;
   Faces faces;
   Points2 uv;             ///< or empty
+  Points2 lookup;         ///< second texture coordinates, or empty
   Eigen::VectorXd water;  ///< or empty
   int colour_count = 0;   ///< 0, 1 or one per frame
   std::function<Shape(int frame)> shape;
