@@ -159,7 +159,7 @@ TEST(AgedColours, OfADeadLeafStayDead) {
     for (const double dryness : {0.3, 0.6, 1.0}) {
       const Points3 aged = c.aged(tissue, dryness);
       const double hue = aged.col(0).mean() / aged.col(1).mean();
-      EXPECT_NEAR(hue, dead.x() / dead.y(), 0.12 * dead.x() / dead.y()) << light << " " << dryness;
+      EXPECT_NEAR(hue, dead.x() / dead.y(), 0.08 * dead.x() / dead.y()) << light << " " << dryness;
       EXPECT_LT(aged.col(1).mean(), 1.1 * light * dead.y());
     }
   }

@@ -135,7 +135,7 @@ class AroundVertices {
   std::vector<Sums> sums_ = std::vector<Sums>(static_cast<std::size_t>(count_));
 };
 
-// Share of the photo's own hue that went with the green.
+// The share of green that is gone at an age, and with it what the photo's hue owed to it.
 double gone(double age) {
   return smooth_step(0.08, 0.8, age);
 }
@@ -221,15 +221,22 @@ Points3 aged_colours(const PhotoTissue& tissue, const SenescencePattern& pattern
   Points3 result(dryness.size(), 3);
   parallel_for(static_cast<int>(dryness.size()), 1024, [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
+      const Vec3 photo = tissue.colour.row(v).transpose();
       const double a = tissue_age(dryness[v], pattern.ahead[v]), a_0 = tissue.age[v], red = tissue.redness[v];
+      if (a == 0.0) {
+        result.row(v) = photo.transpose();
+        continue;
+      }
       const double age = a < 1.0 ? std::max(a_0, 1.0 - (1.0 - a) * (1.0 - a_0)) : std::max(a, a_0);
-      const Vec3 photo = tissue.colour.row(v).transpose(), rest = colours({a_0, red, 0.0}).cwiseMax(1e-4);
-      const double fade = kHueFades * gone(a);
-      const double light = kLightKept * std::log(luminance(photo) / luminance(rest));
-      const Vec3 model = colours({age, red, 0.0});
+      const Vec3 rest = colours({a_0, red, 0.0}).cwiseMax(1e-4), model = colours({age, red, 0.0});
+      const double light = std::log(luminance(photo) / luminance(rest));
+      // Tissue that was dead in the photo keeps its own hue; but what dries becomes paler in blue.
+      const double fade = kHueFades * (gone(age) - gone(a_0)), fade_blue = kHueFades * gone(a);
       for (int c = 0; c < 3; ++c) {
-        const double beside = (1.0 - fade) * std::log(photo[c] / rest[c]) + fade * light;
-        result(v, c) = a > 0.0 ? std::min(model[c] * std::exp(beside), 1.0) : photo[c];
+        const double hue = std::log(photo[c] / rest[c]) - light;
+        const double beside =
+            (1.0 - (1.0 - kLightKept) * fade) * light + (1.0 - (c == 2 ? fade_blue : fade)) * hue;
+        result(v, c) = std::min(model[c] * std::exp(beside), 1.0);
       }
     }
   });

@@ -28,11 +28,11 @@ PhotoTissue photo_tissue(const BladeTexels& texels, const Image& photo, const Se
 ///
 /// Tissue of age a_0 at rest has the age 1 - (1 - a) (1 - a_0), a being that of senescence.hpp. Its colour is
 /// M(age) q, M the species' colour and q = photo / M(a_0) what the photo has beside it: light, camera, this
-/// very leaf. As the pigments go, the hue of q goes too, and its brightness to a part.
+/// very leaf. As the green goes, the hue of q goes too, and its brightness to a part.
 Points3 aged_colours(const PhotoTissue& tissue, const SenescencePattern& pattern,
                      const TissueColours& colours, const Eigen::VectorXd& dryness);
 
-/// How much of the photo's hue is gone at a state, 0 to 1, #V; 0 at rest.
+/// How much of the photo's hue is gone at a state in fresh tissue, 0 to 1, #V; 0 at rest.
 Eigen::VectorXd faded_hue(const SenescencePattern& pattern, const Eigen::VectorXd& dryness);
 
 /// The vertex colours of a clip's first frame and the mean colours of its texture, linear RGB, #V x 3.
