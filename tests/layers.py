@@ -1,6 +1,7 @@
 """Checks that every room includes only the rooms that src/wilt/layers.txt allows.
 
-Also checks that no third-party header but Eigen's stands in a public header, and that only apps include import.
+Also checks that no third-party header but Eigen's stands in a public header, that no room includes a header which says
+that it is for "inside the ... room only", and that only apps include import.
 Usage: layers.py SOURCE_DIR
 """
 import pathlib
@@ -19,6 +20,12 @@ def read_layers(path):
     return layers
 
 
+def is_private(path):
+    """Whether a header's opening comment says that it is for its own room only."""
+    text = path.read_text()
+    return "room only" in " ".join(text[: text.index("#pragma once")].replace("//", " ").split())
+
+
 def faults_of(root):
     layers = read_layers(root / "src/wilt/layers.txt")
     for room_dir in sorted(p for p in (root / "src/wilt").iterdir() if p.is_dir()):
@@ -35,9 +42,11 @@ def faults_of(root):
                 where = f"{path.relative_to(root)}:{number}"
                 if header.startswith("wilt/"):
                     other = header.split("/")[1]
+                    if other != room and is_private(root / "src" / header):
+                        yield f"{where}: <{header}> is for the room {other} only"
                     if other != room and other not in layers[room]:
                         yield f"{where}: {room} must not include {other} (allowed: {' '.join(sorted(layers[room]))})"
-                elif path.suffix == ".hpp" and not STANDARD.match(header) and not header.startswith("Eigen/"):
+                elif path.suffix == ".hpp" and not is_private(path) and not STANDARD.match(header) and not header.startswith("Eigen/"):
                     yield f"{where}: <{header}> in a public header; only Eigen's and the standard library's may stand there"
 
 
