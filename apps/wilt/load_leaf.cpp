@@ -11,6 +11,8 @@
 #include "wilt/core/nearest.hpp"
 #include "wilt/import/read_leaf.hpp"
 #include "wilt/leaf/species.hpp"
+#include "wilt/output/file.hpp"
+#include "wilt/output/veins_files.hpp"
 
 namespace wilt::cli {
 namespace {
@@ -25,19 +27,28 @@ bool looks_like_a_file(const std::string& leaf) {
 
 void add_leaf_options(CLI::App& verb, LeafRequest& request) {
   verb.add_option("LEAF", request.leaf,
-                  "A species (maple poplar tilia ivy willow grape), a mesh (.obj .ply .stl .glb .gltf),\n"
-                  "an outline (.svg .json) or a scan (.xyz .txt .csv, .ply without faces)")
+                  "A species (maple poplar tilia ivy willow grape), a photo (.jpg .png),\n"
+                  "a mesh (.obj .ply .stl .glb .gltf), an outline (.svg .json)\n"
+                  "or a scan (.xyz .txt .csv, .ply without faces)")
       ->required();
   verb.add_option("--vertices", request.vertices,
-                  "Vertices of the mesh, 200 to 1000000 (2000; a mesh file keeps its own)")
+                  "Vertices of the mesh, 200 to 1000000 (2000, of a photo 5000;\na mesh file keeps its own)")
       ->check(CLI::Range(200, 1000000))
       ->type_name("N");
   verb.add_option("--seed", request.seed, "Varies the individual leaf (1)")->type_name("N");
-  verb.add_option("--petiole", request.petiole, "Where the stalk meets the blade, in the file's units")
+  verb.add_option("--petiole", request.petiole,
+                  "Where the stalk meets the blade: pixels of a photo, units of a file")
       ->type_name("X,Y");
-  verb.add_option("--leaf", request.nth, "Take the N-th largest leaf of a drawing or scan (1)")
+  verb.add_option("--leaf", request.nth, "Take the N-th largest leaf of a photo, drawing or scan (1)")
       ->check(CLI::Range(1, 10000))
       ->type_name("N");
+  verb.add_option("--mm-per-pixel", request.mm_per_pixel, "Scale of a photo (else 100 mm across)")
+      ->type_name("X");
+  verb.add_option("--mask", request.mask, "A picture of the photo's shape, white where the leaf is")
+      ->type_name("FILE");
+  verb.add_option("--threshold", request.threshold,
+                  "Colour difference at which a photo's leaf begins, 0 to 100 (found)")
+      ->type_name("X");
   verb.add_flag("--scan", request.scan,
                 "Take the vertices of a mesh as the points of a scan: clean and fit them");
   verb.add_option("--mm-per-unit", request.mm_per_unit,
@@ -52,9 +63,11 @@ bool is_species(const std::string& leaf) {
 
 Leaf load_leaf(const LeafRequest& request, const Monitor& monitor) {
   if (is_species(request.leaf)) {
-    if (!request.petiole.empty() || request.nth != 1 || request.scan || request.mm_per_unit)
-      throw Error(ErrorCode::configuration,
-                  "--petiole, --leaf, --scan and --mm-per-unit go with a file; a species has its petiole");
+    if (!request.petiole.empty() || request.nth != 1 || !request.mask.empty() || request.mm_per_pixel ||
+        request.threshold || request.scan || request.mm_per_unit)
+      throw Error(
+          ErrorCode::configuration,
+          "--petiole, --leaf and the options of photos and scans go with a file; a species has its petiole");
     return make_leaf(request.leaf, request.vertices.value_or(kDefaultVertices), request.seed, monitor);
   }
   if (!std::filesystem::exists(request.leaf)) {
@@ -70,9 +83,32 @@ Leaf load_leaf(const LeafRequest& request, const Monitor& monitor) {
   options.nth = request.nth;
   options.scan = request.scan;
   options.mm_per_unit = request.mm_per_unit;
+  options.mm_per_pixel = request.mm_per_pixel;
+  options.mask = request.mask;
+  options.threshold = request.threshold;
   if (!request.petiole.empty())
     options.petiole = parse_pair(request.petiole, ',', "--petiole takes two numbers, X,Y");
   return read_leaf(request.leaf, options, monitor);
+}
+
+void add_veins_option(CLI::App& verb, LeafRequest& request) {
+  verb.add_option(
+          "--veins", request.veins,
+          "Veins from a veins.json that `wilt veins` wrote for this leaf,\nedited: moved, deleted, added")
+      ->type_name("FILE");
+}
+
+Venation load_veins(const LeafRequest& request, const Leaf& leaf, const SecondaryVeinRule& rule,
+                    const VenationOptions& options, const Monitor& monitor) {
+  Venation found = find_venation(leaf, rule, options, monitor);
+  if (request.veins.empty()) return found;
+  const std::string text = read_file(request.veins);
+  try {
+    return with_drawn_veins(leaf, found, parse_veins_json(text, request.veins, leaf, found), options);
+  } catch (const Error& error) {
+    if (std::string_view(error.what()).find(request.veins) != std::string_view::npos) throw;
+    throw Error(error.code(), fmt::format("'{}': {}", request.veins, error.what()));
+  }
 }
 
 }  // namespace wilt::cli

@@ -7,6 +7,7 @@
 
 #include "wilt/core/monitor.hpp"
 #include "wilt/leaf/leaf.hpp"
+#include "wilt/venation/venation.hpp"
 
 namespace CLI {
 class App;
@@ -20,12 +21,22 @@ struct LeafRequest {
   std::uint64_t seed = 1;
   std::string petiole;  ///< "X,Y" or empty
   int nth = 1;
-  bool scan = false;                  ///< a mesh's vertices are the points of a scan
-  std::optional<double> mm_per_unit;  ///< of a scan
+  bool scan = false;                              ///< a mesh's vertices are the points of a scan
+  std::optional<double> mm_per_unit;              ///< of a scan
+  std::optional<double> mm_per_pixel, threshold;  ///< of a photo
+  std::string mask;                               ///< a picture's name, or empty
+  std::string veins;  ///< a veins.json to take the veins from, or empty: they are found
 };
 
-/// Adds LEAF, --vertices, --seed, --petiole, --leaf, --scan and --mm-per-unit to a verb.
+/// Adds LEAF and the options that go with it to a verb.
 void add_leaf_options(CLI::App& verb, LeafRequest& request);
+
+/// Adds --veins.
+void add_veins_option(CLI::App& verb, LeafRequest& request);
+
+/// The veins of the leaf: found, then replaced by those of the request's file, if there is one.
+Venation load_veins(const LeafRequest& request, const Leaf& leaf, const SecondaryVeinRule& rule,
+                    const VenationOptions& options, const Monitor& monitor);
 
 /// Throws Error{input} for what is neither a species nor a file that can be read.
 Leaf load_leaf(const LeafRequest& request, const Monitor& monitor);

@@ -8,8 +8,8 @@
 #include "wilt/core/error.hpp"
 #include "wilt/output/file.hpp"
 #include "wilt/output/gltf.hpp"
-#include "wilt/output/image_codec.hpp"
 #include "wilt/output/obj.hpp"
+#include "wilt/output/picture_file.hpp"
 #include "wilt/render/picture.hpp"
 #include "wilt/simulation/simulate.hpp"
 
@@ -34,8 +34,8 @@ WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& 
   withered.leaf = load_leaf(request, monitor);
   withered.timings.leaf = seconds_since(start);
 
-  withered.venation =
-      find_venation(withered.leaf, species(config.species).secondary, venation_options(config), monitor);
+  withered.venation = load_veins(request, withered.leaf, species(config.species).secondary,
+                                 venation_options(config), monitor);
   withered.timings.geodesics = withered.venation.timings.geodesics;
   withered.timings.embedding = withered.venation.timings.embedding;
   withered.timings.venation = withered.venation.timings.venation;

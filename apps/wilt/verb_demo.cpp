@@ -10,7 +10,7 @@
 #include "wilt/core/error.hpp"
 #include "wilt/leaf/species.hpp"
 #include "wilt/output/file.hpp"
-#include "wilt/output/image_codec.hpp"
+#include "wilt/output/picture_file.hpp"
 #include "wilt/render/contact_sheet.hpp"
 
 namespace wilt::cli {

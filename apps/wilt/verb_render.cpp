@@ -16,7 +16,7 @@
 #include "wilt/core/parallel.hpp"
 #include "wilt/core/stack_rows.hpp"
 #include "wilt/output/gltf.hpp"
-#include "wilt/output/image_codec.hpp"
+#include "wilt/output/picture_file.hpp"
 #include "wilt/render/contact_sheet.hpp"
 #include "wilt/render/leaf_scene.hpp"
 #include "wilt/render/movie.hpp"

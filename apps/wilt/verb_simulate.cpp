@@ -131,10 +131,12 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
       "  wilt simulate maple -o maple.glb\n"
       "  wilt simulate drawing.svg -o mine.glb -o mine.png --report report.json\n"
       "  wilt simulate grape -o dry.glb --set water.humidity=0.2 --set water.temperature_c=35\n"
+      "  wilt simulate drawing.svg -o mine.glb --veins veins.json    veins edited by hand\n"
       "  wilt simulate ivy -o ivy.glb --model paper --forces forces.csv\n"
       "  wilt simulate maple --print-config > run.toml    then edit it, and give it back:\n"
       "  wilt simulate maple -o maple.glb --config run.toml\n");
   add_leaf_options(*verb, request->leaf);
+  add_veins_option(*verb, request->leaf);
   verb->get_option("LEAF")->required(false);
   const CLI::Option* seed = verb->get_option("--seed");
   verb->add_option("-o,--output", request->outputs,

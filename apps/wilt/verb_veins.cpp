@@ -43,7 +43,7 @@ void run(const Request& request, const GlobalOptions& options) {
   catch_interrupts();
   const Monitor monitor = terminal.monitor();
   const Leaf leaf = load_leaf(request.leaf, monitor);
-  const Venation venation = find_venation(leaf, species(leaf.species).secondary, {}, monitor);
+  const Venation venation = load_veins(request.leaf, leaf, species(leaf.species).secondary, {}, monitor);
   terminal.say(fmt::format("{}: {} tips, {} veins", leaf.name, venation.tips.size(), venation.veins.size()));
   for (const std::string& path : request.outputs) {
     write_file(path, writer_for(path)(leaf, venation));
@@ -56,12 +56,15 @@ void run(const Request& request, const GlobalOptions& options) {
 
 void add_veins(CLI::App& app, const GlobalOptions& options) {
   const auto request = std::make_shared<Request>();
-  CLI::App* verb = app.add_subcommand("veins",
-                                      "Vein tips, primary and secondary veins\n\n"
-                                      "Examples:\n"
-                                      "  wilt veins maple -o veins.svg\n"
-                                      "  wilt veins drawing.svg -o veins.json -o veins.obj\n");
+  CLI::App* verb =
+      app.add_subcommand("veins",
+                         "Vein tips, primary and secondary veins\n\n"
+                         "Examples:\n"
+                         "  wilt veins maple -o veins.svg\n"
+                         "  wilt veins drawing.svg -o veins.json -o veins.obj\n"
+                         "  wilt veins drawing.svg --veins veins.json -o edited.svg    edited by hand\n");
   add_leaf_options(*verb, request->leaf);
+  add_veins_option(*verb, request->leaf);
   verb->add_option("-o,--output", request->outputs, ".json, .svg or .obj; repeatable")
       ->type_name("FILE")
       ->allow_extra_args(false);

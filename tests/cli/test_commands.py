@@ -140,6 +140,23 @@ class CommandLine(unittest.TestCase):
         self.assertTrue(glb.exists())
         self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["m.glb", "r.json"])
 
+    def test_edited_veins_are_given_back(self):
+        leaf = ["grape", "--vertices", 400]
+        run = [*leaf, "--iterations", 4, "--frames", 2]
+        veins, plain, same, edited = (self.dir / name for name in ("veins.json", "plain.glb", "same.glb", "edited.glb"))
+        self.expect(0, "veins", *leaf, "-o", veins)
+        self.expect(0, "simulate", *run, "-o", plain)
+        self.expect(0, "simulate", *run, "--veins", veins, "-o", same)
+        self.assertEqual(same.read_bytes(), plain.read_bytes())
+        document = json.loads(veins.read_text())
+        del document["veins"][0]
+        veins.write_text(json.dumps(document))
+        self.expect(0, "simulate", *run, "--veins", veins, "-o", edited)
+        self.assertNotEqual(edited.read_bytes(), plain.read_bytes())
+        again = json.loads(self.expect(0, "veins", *leaf, "--veins", veins, "--json").stdout)
+        self.assertEqual([v["positions"] for v in again["veins"]], [v["positions"] for v in document["veins"]])
+        self.expect(3, "veins", "grape", "--vertices", 500, "--veins", veins, "-o", veins, says="another leaf's veins")
+
     def test_info_tells_what_a_result_holds(self):
         glb = self.dir / "m.glb"
         self.expect(0, "simulate", "tilia", "--vertices", 400, "--iterations", 4, "--frames", 3, "-o", glb)

@@ -7,14 +7,6 @@ namespace {
 
 using ReadLeaf = test::Files;
 
-TEST_F(ReadLeaf, SaysThatPhotosComeLater) {
-  for (const char* name : {"a.jpg", "a.PNG"}) {
-    const std::string message = refusal(name);
-    EXPECT_NE(message.find("reads meshes, outlines and scans"), std::string::npos) << message;
-    EXPECT_NE(message.find(".svg"), std::string::npos) << message;
-  }
-}
-
 TEST_F(ReadLeaf, ListsWhatIsAllowedForAnUnknownExtension) {
   const std::string message = refusal("a.svgg");
   EXPECT_NE(message.find("did you mean '.svg'"), std::string::npos) << message;
@@ -33,7 +25,13 @@ TEST_F(ReadLeaf, ChecksItsOptions) {
   options.nth = 0;
   EXPECT_NE(refusal("a.svg", options, ErrorCode::configuration).find("1 or more"), std::string::npos);
   options.nth = 2;
-  EXPECT_NE(refusal("a.obj", options, ErrorCode::configuration).find("only a drawing"), std::string::npos);
+  EXPECT_NE(refusal("a.obj", options, ErrorCode::configuration).find("only a photo or a drawing"), std::string::npos);
+  options = {};
+  options.threshold = 20.0;
+  EXPECT_NE(refusal("a.obj", options, ErrorCode::configuration).find("go with a photo"), std::string::npos);
+  EXPECT_NE(refusal("a.jpg", options).find("does not exist"), std::string::npos);
+  options.threshold = 200.0;
+  EXPECT_NE(refusal("a.jpg", options, ErrorCode::configuration).find("at most 100"), std::string::npos);
   options = {};
   options.petiole = Vec2(0, std::numeric_limits<double>::infinity());
   EXPECT_NE(refusal("a.svg", options, ErrorCode::configuration).find("finite"), std::string::npos);

@@ -1,10 +1,13 @@
 // Colours and texture of a run in its GLB.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
+
+#include "wilt/core/image_codec.hpp"
 #include "wilt/core/srgb.hpp"
 #include "wilt/leaf/species.hpp"
 #include "wilt/output/gltf.hpp"
-#include "wilt/output/image_codec.hpp"
 #include "wilt/simulation/senescence.hpp"
 #include "wilt/simulation/uv_raster.hpp"
 #include "wilt/venation/venation.hpp"
@@ -96,6 +99,83 @@ TEST(ClipOfARun, HasColoursPerVertexWithoutATexture) {
   const Pigmentation& pigments = species("grape").pigments;
   EXPECT_EQ(clip.colours[1], leaf_colours(senescence_pattern(run.leaf, run.venation, pigments),
                                           TissueColours(pigments), run.frames[1].dryness));
+}
+
+// A photo over the leaf's texture coordinates: green to yellow from left to right, striped.
+std::shared_ptr<const LeafPhoto> striped_photo() {
+  constexpr int kSide = 200;
+  LeafPhoto photo{{kSide, kSide, {}}, {Vec2::Zero(), Vec2(kSide, kSide)}};
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const int stripe = y / 8 % 2 == 0 ? 25 : 0;
+      for (const int byte : {50 + x / 2 + stripe, 110 + x / 4 + stripe, 20 + stripe})
+        photo.image.rgb.push_back(static_cast<std::uint8_t>(byte));
+    }
+  }
+  return std::make_shared<const LeafPhoto>(std::move(photo));
+}
+
+// Steps of 255 by which texture x first colours miss the photo in red and green, ascending.
+std::vector<double> misses(const Leaf& leaf, const Clip& clip) {
+  const Image texture = decode_image(clip.texture);
+  const int size = texture.width;
+  const auto raster = uv_raster(leaf.skin, size);
+  std::vector<double> all;
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const int face = raster->face[static_cast<std::size_t>(y) * size + x];
+      if (face < 0) continue;
+      const Vec3 w = uv_weights(leaf.skin, face, {(x + 0.5) / size, (y + 0.5) / size});
+      for (int c = 0; c < 2; ++c) {
+        double first = 0.0;
+        for (int k = 0; k < 3; ++k) first += w[k] * clip.colours.front()(leaf.skin.faces(face, k), c);
+        const double shown = 255.0 * encode_srgb(decode_srgb(texture.pixel(x, y)[c] / 255.0) * first);
+        all.push_back(std::abs(shown - leaf.photo->image.pixel(x, y)[c]));
+      }
+    }
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+// Oracle: the photo's own bytes; what a JPEG loses comes on top of what test_photo_tissue.cpp allows. The
+// texture has the photo's size, and the colours do change.
+TEST(ClipOfAPhoto, ShowsThePhotoAtRest) {
+  Case run;
+  run.leaf.photo = striped_photo();
+  const Clip clip = make_clip(run.leaf, run.venation, run.config, run.frames);
+  const std::vector<double> all = misses(run.leaf, clip);
+  EXPECT_LT(all[all.size() / 2], 1.5);
+  EXPECT_LT(all[all.size() * 99 / 100], 4.0);
+  EXPECT_EQ(decode_image(clip.texture).width, 200);
+  EXPECT_GT((clip.colours.back() - clip.colours.front()).cwiseAbs().maxCoeff(), 0.1);
+  const GlbFile file = parse_glb(glb_bytes(clip), "photo");
+  EXPECT_EQ(file.texture, clip.texture);
+}
+
+// Oracle: the same; a leaf that does not wither is the photo in white light.
+TEST(ClipOfAPhoto, OfALeafAtRestIsThePhoto) {
+  Case run;
+  run.leaf.photo = striped_photo();
+  const std::vector<Frame> rest = rest_frames(run.leaf);
+  const Clip clip = make_clip(run.leaf, run.venation, run.config, rest);
+  EXPECT_EQ(clip.colours.front(), Points3::Ones(run.leaf.positions.rows(), 3));
+  const std::vector<double> all = misses(run.leaf, clip);
+  EXPECT_LT(all[all.size() / 2], 1.5);
+  EXPECT_LT(all[all.size() * 99 / 100], 4.0);
+}
+
+// Oracle: the photo's mean colour by side. Without a texture the photo's colours stand per vertex.
+TEST(ClipOfAPhoto, ColoursVerticesWithoutATexture) {
+  Case run;
+  run.leaf.photo = striped_photo();
+  run.config.texture.size = 0;
+  const Clip clip = make_clip(run.leaf, run.venation, run.config, run.frames);
+  EXPECT_TRUE(clip.texture.empty());
+  for (int s = 0; s < run.leaf.skin.uv.rows(); ++s) {
+    const Vec3 shown = clip.colours.front().row(run.leaf.skin.vertex[std::size_t(s)]).transpose();
+    EXPECT_NEAR(255.0 * encode_srgb(shown.x()), 62.0 + 100.0 * run.leaf.skin.uv(s, 0), 16.0);
+  }
 }
 
 }  // namespace

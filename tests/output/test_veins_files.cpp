@@ -4,6 +4,7 @@
 #include <pugixml.hpp>
 
 #include "output/sample_leaf.hpp"
+#include "wilt/core/error.hpp"
 #include "wilt/output/coordinates.hpp"
 #include "wilt/output/veins_files.hpp"
 
@@ -72,6 +73,77 @@ TEST(VeinsJson, GivesPixelsInAPhoto) {
   const Json& tip = json["tips"][0];
   EXPECT_NEAR(tip["pixel"][0].get<double>(), 10.0 + 640.0 * tip["uv"][0].get<double>(), 1e-12);
   EXPECT_NEAR(tip["pixel"][1].get<double>(), 20.0 + 480.0 * tip["uv"][1].get<double>(), 1e-12);
+}
+
+// Oracle: the text itself. What was written is read as the veins that were found, and drawn again as they
+// are.
+TEST(VeinsJson, ReadsWhatItWrote) {
+  Leaf leaf = test::sample_leaf();
+  leaf.placement = test::sample_placement();
+  const Venation venation = test::sample_venation(leaf);
+  const std::string text = veins_json(leaf, venation);
+  const std::vector<DrawnVein> drawn = parse_veins_json(text, "veins.json", leaf, venation);
+  ASSERT_EQ(drawn.size(), 3u);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(drawn[std::size_t(i)].found, i);
+  EXPECT_EQ(veins_json(leaf, with_drawn_veins(leaf, venation, drawn)), text);
+}
+
+// Oracle: places on the surface that are known: each way to give a point leads to the same one.
+TEST(VeinsJson, ReadsPointsInEveryWay) {
+  Leaf leaf = test::sample_leaf();
+  leaf.placement = test::sample_placement();
+  leaf.photo = std::make_shared<LeafPhoto>(LeafPhoto{{}, {Vec2(10, 20), Vec2(640, 480)}});
+  const Venation venation = test::sample_venation(leaf);
+  const SurfacePoint place{FaceId(leaf.mesh.num_faces() / 2), Vec3(0.2, 0.3, 0.5)};
+  const Vec3 expected = position(leaf.mesh, leaf.positions, place);
+  Vec2 uv = Vec2::Zero();
+  for (int c = 0; c < 3; ++c)
+    uv += place.barycentric[c] * leaf.skin.uv.row(leaf.skin.faces(int(place.face), c)).transpose();
+  const Points3 in_file = file_points(leaf.placement, expected.transpose());
+  const Json ways[] = {{{"positions", {{in_file(0, 0), in_file(0, 1), in_file(0, 2)}}}},
+                       {{"uv", {{uv[0], uv[1]}}}},
+                       {{"pixel", {{10 + 640 * uv[0], 20 + 480 * uv[1]}}}}};
+  for (const Json& way : ways) {
+    Json vein = way;
+    vein["order"] = 2;
+    const Json document = {{"veins", Json::array({vein})}};
+    const std::vector<DrawnVein> drawn = parse_veins_json(document.dump(), "v", leaf, venation);
+    ASSERT_EQ(drawn.size(), 1u);
+    EXPECT_EQ(drawn[0].found, -1);
+    ASSERT_EQ(drawn[0].points.size(), 1u);
+    EXPECT_LT((position(leaf.mesh, leaf.positions, drawn[0].points[0]) - expected).norm(), 1e-9) << document;
+  }
+}
+
+// Negative: each is refused with its place and the way out.
+TEST(VeinsJson, RefusesWhatCannotBeMeant) {
+  const Leaf leaf = test::sample_leaf();
+  const Venation venation = test::sample_venation(leaf);
+  const Json good = Json::parse(veins_json(leaf, venation));
+  const auto says = [&](const std::string& text, const char* what) {
+    try {
+      parse_veins_json(text, "v.json", leaf, venation);
+      ADD_FAILURE() << what;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::input);
+      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+  };
+  const auto edited = [&](auto edit) {
+    Json document = good;
+    edit(document);
+    return document.dump();
+  };
+  says("{", "not JSON");
+  says("[]", "no list \"veins\"");
+  says(edited([](Json& d) { d["leaf"]["vertices"] = 7; }), "another leaf's veins: its vertices is 7");
+  says(edited([](Json& d) { d["veins"][1]["positins"] = 1; }), "did you mean 'positions'?");
+  says(edited([](Json& d) { d["veins"][1].erase("order"); }), "veins[1]: \"order\" must be 1");
+  says(edited([](Json& d) { d["veins"][1]["uv"].erase(0); }), "not the same places");
+  says(edited([](Json& d) { d["veins"][1]["uv"] = {{1, 2, 3}}; }), "points of 2 numbers");
+  says(edited([](Json& d) { d["veins"][0] = {{"order", 1}, {"uv", {{3.0, 0.5}}}}; }), "beside the blade");
+  says(edited([](Json& d) { d["veins"][0] = {{"order", 1}, {"pixel", {{3.0, 0.5}}}}; }), "needs a photo");
+  says(edited([](Json& d) { d["veins"][0] = {{"order", 1}}; }), "neither");
 }
 
 // Oracle: an XML parser that is not ours, and the sample's counts.

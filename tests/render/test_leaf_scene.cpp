@@ -6,8 +6,8 @@
 
 #include "output/sample_leaf.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/core/image_codec.hpp"
 #include "wilt/core/random.hpp"
-#include "wilt/output/image_codec.hpp"
 #include "wilt/render/leaf_scene.hpp"
 
 namespace wilt {

@@ -25,4 +25,15 @@ SurfacePath trace_straight(const SurfaceMesh& mesh, const Points3& positions, co
                            const std::function<double(double)>& turn = {},
                            const std::function<bool(const SurfacePoint&)>& stop = {});
 
+/// A line drawn through `points` (>= 1): from each to the next straight ahead, aimed anew in every face,
+/// which on a gently curved surface is the shortest way but for a part of second order. Points that coincide
+/// count once. Stops at the last point reached when the way to the next leaves the surface (across a sinus or
+/// a hole); `reached` counts the points. Throws as trace_straight does. Deterministic.
+struct DrawnPath {
+  SurfacePath path;
+  int reached = 0;
+};
+DrawnPath trace_through(const SurfaceMesh& mesh, const Points3& positions,
+                        const std::vector<SurfacePoint>& points);
+
 }  // namespace wilt

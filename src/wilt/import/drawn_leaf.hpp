@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,9 +14,11 @@ namespace wilt::detail {
 
 struct DrawnLeaf {
   Outline outline;              ///< in the file's units, y up
-  std::optional<Vec2> petiole;  ///< as the file or the user gave it, y up
+  std::optional<Vec2> petiole;  ///< as the file or the user gave it, or as it was found, y up
+  std::string petiole_reason;   ///< how it was found; empty: given
   double mm_per_unit = 1.0;
-  bool y_down = false;  ///< whether the file's y runs down: for messages
+  bool y_down = false;                     ///< whether the file's y runs down: for messages
+  std::shared_ptr<const LeafPhoto> photo;  ///< whose pixels are the outline's units
   std::vector<std::string> notes;
 };
 

@@ -10,6 +10,8 @@
 namespace wilt::detail {
 namespace {
 
+constexpr int kPhotoVertices = 5000;  // teeth of a grape leaf are some 2 % of its length
+
 // Where a point of the margin is: `index` is its place among the points, a new one if it lies between two.
 int nearest_margin_point(Points2& margin, const Vec2& wanted) {
   int segment = 0;
@@ -45,7 +47,10 @@ Vec2 settle_petiole(DrawnLeaf& drawn, StalkCut& cut) {
   Points2& margin = cut.blade.margin;
   if (drawn.petiole) {
     const Vec2 at = margin.row(nearest_margin_point(margin, *drawn.petiole)).transpose();
-    drawn.notes.push_back(fmt::format("petiole as given: the margin at {}", shown(drawn, at)));
+    drawn.notes.push_back(
+        drawn.petiole_reason.empty()
+            ? fmt::format("petiole as given: the margin at {}", shown(drawn, at))
+            : fmt::format("petiole found at {}: {}", shown(drawn, at), drawn.petiole_reason));
     const double size = (margin.colwise().maxCoeff() - margin.colwise().minCoeff()).norm();
     if (cut.found && (at - cut.petiole).norm() > 0.05 * size) {
       cut.found = false;
@@ -78,6 +83,13 @@ void add_relief(Leaf& leaf) {
   }
 }
 
+// Texture coordinates that match the photo to the pixel; its y runs down, the outline's up.
+Points2 photo_uv(const Points2& outline_points, const PhotoArea& area) {
+  Points2 pixels = outline_points;
+  pixels.col(1) *= -1.0;
+  return (pixels.rowwise() - area.origin.transpose()) * area.size.cwiseInverse().asDiagonal();
+}
+
 }  // namespace
 
 Leaf leaf_from_outline(DrawnLeaf drawn, const std::string& name, const ReadOptions& options,
@@ -87,8 +99,9 @@ Leaf leaf_from_outline(DrawnLeaf drawn, const std::string& name, const ReadOptio
     drawn.petiole = Vec2(options.petiole->x(), drawn.y_down ? -options.petiole->y() : options.petiole->y());
   StalkCut cut = cut_stalk(drawn.outline);
   MeshingOptions meshing;
-  meshing.vertices = options.vertices.value_or(meshing.vertices);
+  meshing.vertices = options.vertices.value_or(drawn.photo ? kPhotoVertices : meshing.vertices);
   meshing.smallest_angle += kReliefReserve;
+  if (drawn.photo) meshing.smoothing = 0.5;  // teeth are what makes it this leaf
   meshing.keep = {settle_petiole(drawn, cut)};
   PlanarMesh planar = mesh_outline(cut.blade, meshing, monitor);
 
@@ -109,8 +122,14 @@ Leaf leaf_from_outline(DrawnLeaf drawn, const std::string& name, const ReadOptio
     place_stalk(leaf, centreline, cut.half_widths);
   }
   leaf.skin = planar_skin(leaf.mesh, leaf.positions);
-  note_implausible_length(
-      leaf, drawn.y_down ? "give the drawing a width and height in mm and a viewBox" : "set mm_per_unit");
+  leaf.photo = drawn.photo;
+  if (leaf.photo) {
+    leaf.skin.uv = photo_uv(planar.positions, leaf.photo->area);
+    leaf.placement = {};  // pixels are nobody's units: files are in metres, the petiole at the origin
+  }
+  note_implausible_length(leaf, drawn.photo    ? "give --mm-per-pixel"
+                                : drawn.y_down ? "give the drawing a width and height in mm and a viewBox"
+                                               : "set mm_per_unit");
   return leaf;
 }
 

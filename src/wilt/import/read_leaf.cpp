@@ -10,6 +10,7 @@
 #include "wilt/core/nearest.hpp"
 #include "wilt/import/drawn_leaf.hpp"
 #include "wilt/import/mesh_leaf.hpp"
+#include "wilt/import/photo_leaf.hpp"
 #include "wilt/import/scan_leaf.hpp"
 #include "wilt/import/scan_points.hpp"
 
@@ -26,13 +27,26 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+bool is_photo(const std::string& extension) {
+  return one_of(extension, {".jpg", ".jpeg", ".png"});
+}
+
 bool is_points_file(const std::string& extension) {
   return one_of(extension, {".xyz", ".txt", ".csv"});
 }
 
+// A .ply may be a scan too.
+void validate_scan_options(const ReadOptions& options, const std::string& extension) {
+  if (options.scan && (is_photo(extension) || one_of(extension, {".svg", ".json"})))
+    throw Error(ErrorCode::configuration, "--scan goes with a mesh or a point cloud");
+  if (options.mm_per_unit && !options.scan && !is_points_file(extension) && extension != ".ply")
+    throw Error(ErrorCode::configuration, "--mm-per-unit goes with a scan; meshes are in metres");
+  if (options.mm_per_unit && !(*options.mm_per_unit > 0.0 && *options.mm_per_unit < 1e6))
+    throw Error(ErrorCode::configuration,
+                fmt::format("--mm-per-unit {} must be above 0", *options.mm_per_unit));
+}
+
 void validate(const ReadOptions& options, const std::string& extension) {
-  const bool drawing = extension == ".svg", outline = drawing || extension == ".json";
-  const bool scan = options.scan || is_points_file(extension) || extension == ".ply";
   if (options.vertices && (*options.vertices < 200 || *options.vertices > 1'000'000))
     throw Error(ErrorCode::configuration,
                 fmt::format("--vertices {} must be from 200 to 1000000", *options.vertices));
@@ -40,19 +54,22 @@ void validate(const ReadOptions& options, const std::string& extension) {
     throw Error(ErrorCode::configuration, "--petiole must be two finite numbers X,Y");
   if (options.nth < 1)
     throw Error(ErrorCode::configuration, fmt::format("--leaf {} must be 1 or more", options.nth));
-  if (options.nth > 1 && !drawing && !scan)
+  if (options.nth > 1 && !options.scan && !is_photo(extension) && !is_points_file(extension) &&
+      !one_of(extension, {".svg", ".ply"}))
     throw Error(
         ErrorCode::configuration,
-        fmt::format("--leaf {}: only a drawing or a scan holds several leaves; a mesh or a JSON outline "
-                    "is one",
+        fmt::format("--leaf {}: only a photo, a drawing or a scan holds several leaves; a mesh or a JSON "
+                    "outline is one",
                     options.nth));
-  if (options.scan && outline)
-    throw Error(ErrorCode::configuration, "--scan goes with a mesh or a point cloud, not with an outline");
-  if (options.mm_per_unit && !scan)
-    throw Error(ErrorCode::configuration, "--mm-per-unit goes with a scan; meshes are in metres");
-  if (options.mm_per_unit && !(*options.mm_per_unit > 0.0 && std::isfinite(*options.mm_per_unit)))
+  if (!is_photo(extension) && (options.mm_per_pixel || options.threshold || !options.mask.empty()))
+    throw Error(ErrorCode::configuration, "--mm-per-pixel, --threshold and --mask go with a photo");
+  if (options.mm_per_pixel && !(*options.mm_per_pixel > 0.0 && *options.mm_per_pixel < 1e6))
     throw Error(ErrorCode::configuration,
-                fmt::format("--mm-per-unit {} must be above 0", *options.mm_per_unit));
+                fmt::format("--mm-per-pixel {} must be above 0", *options.mm_per_pixel));
+  if (options.threshold && !(*options.threshold > 0.0 && *options.threshold <= 100.0))
+    throw Error(ErrorCode::configuration,
+                fmt::format("--threshold {} must be above 0, at most 100", *options.threshold));
+  validate_scan_options(options, extension);
 }
 
 // A .ply without faces is a scan too.
@@ -72,6 +89,7 @@ Leaf read(const std::filesystem::path& file, const std::string& extension, const
     return detail::leaf_from_outline(detail::read_svg_outline(file, options.nth), name, options, monitor);
   if (extension == ".json")
     return detail::leaf_from_outline(detail::read_json_outline(file), name, options, monitor);
+  if (is_photo(extension)) return detail::read_photo_leaf(file, options, monitor);
   if (is_points_file(extension)) {
     detail::Scan scan;
     scan.points = detail::read_points(file, scan.notes);
@@ -83,8 +101,8 @@ Leaf read(const std::filesystem::path& file, const std::string& extension, const
 }  // namespace
 
 const std::vector<std::string>& leaf_file_extensions() {
-  static const std::vector<std::string> extensions{".obj", ".ply",  ".stl", ".glb", ".gltf",
-                                                   ".svg", ".json", ".xyz", ".txt", ".csv"};
+  static const std::vector<std::string> extensions{".obj", ".ply", ".stl", ".glb", ".gltf", ".svg", ".json",
+                                                   ".xyz", ".txt", ".csv", ".jpg", ".jpeg", ".png"};
   return extensions;
 }
 
@@ -93,10 +111,6 @@ Leaf read_leaf(const std::filesystem::path& file, const ReadOptions& options, co
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const std::string name = file.filename().string();
-  if (one_of(extension, {".jpg", ".jpeg", ".png"}))
-    throw Error(ErrorCode::input, fmt::format("'{}': photos cannot be read by this version; it reads meshes, "
-                                              "outlines and scans: {}",
-                                              name, joined(leaf_file_extensions())));
   if (!one_of(extension, leaf_file_extensions()))
     throw Error(ErrorCode::input,
                 fmt::format("'{}': '{}' is no kind of leaf file{}; allowed are {}", name, extension,

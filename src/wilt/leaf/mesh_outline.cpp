@@ -139,6 +139,11 @@ void check_options(const MeshingOptions& options) {
                 fmt::format("a smallest angle of {} radians was asked for; from 0 to 0.45 are possible",
                             options.smallest_angle));
   }
+  if (!(options.smoothing >= 0.3 && options.smoothing <= 4.0)) {
+    throw Error(
+        ErrorCode::configuration,
+        fmt::format("a smoothing of {} was asked for; from 0.3 to 4 are possible", options.smoothing));
+  }
 }
 
 }  // namespace
@@ -152,7 +157,7 @@ PlanarMesh mesh_outline(const Outline& outline, const MeshingOptions& options, c
   }
   double reached = 0.0;
   // An outline with needles or necks that defeat the angle is smoothed more.
-  for (const double smoothing : {1.0, 1.4, 2.0, 2.8, 4.0}) {
+  for (double smoothing = options.smoothing; smoothing < 4.5; smoothing *= std::numbers::sqrt2) {
     monitor.report("mesh", 0.0);
     Filling filling = fill_to_count(rings, options, smoothing, monitor);
     Polyline points = std::move(filling.margin.points);

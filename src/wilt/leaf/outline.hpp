@@ -22,6 +22,7 @@ void validate_outline(const Outline& outline);
 struct MeshingOptions {
   int vertices = 2000;           ///< wanted; met within 5 %. 200 to 1,000,000
   double smallest_angle = 0.35;  ///< radians (20 degrees): no triangle has a smaller one
+  double smoothing = 1.0;        ///< of the margin, in 0.6 edges: finer details are lost; 0.3 to 4
   std::vector<Vec2> keep;        ///< points of the margin that must become vertices (the petiole, lobe tips)
 };
 

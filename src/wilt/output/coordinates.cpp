@@ -19,6 +19,11 @@ Points3 file_points(const Placement& placement, const Points3& points) {
   return (points * linear.transpose()).rowwise() + offset.transpose();
 }
 
+Points3 leaf_points(const Placement& placement, const Points3& points) {
+  const Vec3 offset = y_up() * placement.translation;
+  return (points.rowwise() - offset.transpose()) * (y_up() * placement.rotation) / placement.scale;
+}
+
 Points3 file_normals(const Placement& placement, const Points3& normals) {
   return (normals * (y_up() * placement.rotation).transpose()).rowwise().normalized();
 }

@@ -13,6 +13,9 @@ namespace wilt {
 /// #N x 3 points in the leaf frame, as files hold them.
 Points3 file_points(const Placement& placement, const Points3& points);
 
+/// The inverse: #N x 3 points as files hold them, in the leaf frame.
+Points3 leaf_points(const Placement& placement, const Points3& points);
+
 /// #N x 3 unit vectors in the leaf frame, as files hold them.
 Points3 file_normals(const Placement& placement, const Points3& normals);
 

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "wilt/core/check.hpp"
+#include "wilt/core/image_codec.hpp"
 #include "wilt/core/stack_rows.hpp"
 #include "wilt/mesh/geometry.hpp"
-#include "wilt/output/image_codec.hpp"
 #include "wilt/output/tube.hpp"
 #include "wilt/render/refine.hpp"
 #include "wilt/render/resting_pose.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "wilt/output/image_codec.hpp"
+#include "wilt/output/picture_file.hpp"
 
 namespace wilt {
 

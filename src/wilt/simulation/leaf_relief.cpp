@@ -14,7 +14,8 @@ constexpr float kVein = 0.0042f, kTertiary = 0.0009f, kQuaternary = 0.00035f, kA
 constexpr float kSunk = 0.0035f;                               // of dry tissue between tertiary veins
 constexpr float kCrinkle[] = {0.0016f, 0.00075f, 0.00022f};    // of dry tissue, at three sizes
 constexpr float kCrinkleFrequency[] = {30.0f, 75.0f, 190.0f};  // in a leaf's length
-constexpr float kFreshShare = 0.25f;                           // of crinkles and sunk tissue in a fresh leaf
+constexpr float kBesidePhoto = 0.3f;  // share of drawn veins where a photo shows real ones
+constexpr float kFreshShare = 0.25f;  // of crinkles and sunk tissue in a fresh leaf
 
 // A noise that creases: ridges where smooth noise changes its sign.
 WILT_INLINE Float16 creases(const Place16& p, std::uint64_t seed) {
@@ -28,23 +29,24 @@ WILT_INLINE Float16 smooth_rise(Float16 x, float high) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-// Heights of a row's texels in leaf lengths; `dryness` and `heights` are padded as the row's arrays are.
-WILT_CLONES void sculpt(const BladeRow& row, std::uint64_t leaf_seed, const std::vector<float>& dryness,
-                        std::vector<float>& heights) {
+// Heights of a row's texels in leaf lengths, drawn veins by a share; `dryness` and `heights` are padded as
+// the row's arrays are.
+WILT_CLONES void sculpt(const BladeRow& row, std::uint64_t leaf_seed, float drawn,
+                        const std::vector<float>& dryness, std::vector<float>& heights) {
   const std::uint64_t seed = mix_hash(leaf_seed, 78);
   for (int i = 0; i < row.count(); i += 2 * simd::kLanes) {
     const Place16 p{simd::load(&row.plane_x[i]), simd::load(&row.plane_y[i])};
     const FineNetwork16 network = fine_network(p, leaf_seed);
     const Float16 dry = kFreshShare + (1.0f - kFreshShare) * simd::load(&dryness[i]);
     Float16 height =
-        kTertiary * network.tertiary + kQuaternary * network.quaternary + kAreole * network.areole;
+        drawn * (kTertiary * network.tertiary + kQuaternary * network.quaternary + kAreole * network.areole);
     height -= dry * kSunk * smooth_rise(network.within, 0.45f);
     for (int k = 0; k < 3; ++k)
       height +=
           dry * kCrinkle[k] *
           creases({p.x * kCrinkleFrequency[k], p.y * kCrinkleFrequency[k]}, mix_hash(seed, std::uint64_t(k)));
     // A main vein stands above what lies beside it.
-    const Float16 vein = simd::load(&row.vein[i]);
+    const Float16 vein = drawn * simd::load(&row.vein[i]);
     simd::store(&heights[i], (1.0f - vein) * height + vein * kVein);
   }
 }
@@ -93,7 +95,7 @@ Image leaf_relief(const BladeTexels& texels, const Eigen::VectorXd& dryness) {
   texels.for_each_row([&](const BladeRow& row) {
     std::vector<float> dry, high(row.vein.size());
     texels.interpolate(dryness, row, dry);
-    sculpt(row, texels.leaf().seed, dry, high);
+    sculpt(row, texels.leaf().seed, texels.leaf().photo ? kBesidePhoto : 1.0F, dry, high);
     float* of_row = heights.data() + static_cast<std::size_t>(row.y) * raster.size;
     for (int i = 0; i < row.count(); ++i) of_row[row.columns[i]] = high[i];
   });

@@ -1,7 +1,6 @@
 #include "wilt/simulation/leaf_texture.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "wilt/core/srgb.hpp"
@@ -62,22 +61,6 @@ WILT_CLONES void add_detail(const BladeRow& row, std::uint64_t leaf_seed, RowTis
     simd::store(&tissue.shade[i], 1.0f + 0.05f * mottle + 0.05f * grain + 0.03f * blotch);
   }
 }
-
-/// Linear values as eight bits of sRGB, within a step of the rounded value.
-class SrgbBytes {
- public:
-  SrgbBytes() {
-    for (std::size_t i = 0; i < table_.size(); ++i)
-      table_[i] = static_cast<std::uint8_t>(std::lround(255.0 * encode_srgb(double(i) / kSteps)));
-  }
-  std::uint8_t operator()(double linear) const {
-    return table_[static_cast<std::size_t>(std::clamp(linear, 0.0, 1.0) * kSteps + 0.5)];
-  }
-
- private:
-  static constexpr int kSteps = 16384;
-  std::array<std::uint8_t, kSteps + 1> table_{};
-};
 
 class Painter {
  public:

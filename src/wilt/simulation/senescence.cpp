@@ -28,6 +28,10 @@ double bell(double distance, double width) {
 
 }  // namespace
 
+double red_made(double age) {
+  return smooth_step(0.2, 0.65, age);
+}
+
 LeafTissue senescent_tissue(const Pigmentation& p, const TissueState& state) {
   const double vein = std::clamp(state.vein, 0.0, 1.0), red = std::clamp(state.redness, 0.0, 1.0);
   const double a = std::clamp(state.age, 0.0, kOldest) * (1.0 - kVeinLag * vein);
@@ -37,7 +41,7 @@ LeafTissue senescent_tissue(const Pigmentation& p, const TissueState& state) {
   LeafTissue tissue;
   tissue.chlorophyll = pale * p.chlorophyll * mix(p.chlorophyll_left, 1.0, green);
   tissue.carotenoids = pale * p.carotenoids * mix(p.carotenoids_left, 1.0, yellow);
-  tissue.anthocyanin = red * p.anthocyanin * smooth_step(0.2, 0.65, a) * (1.0 - 0.7 * dead);
+  tissue.anthocyanin = red * p.anthocyanin * red_made(a) * (1.0 - 0.7 * dead);
   tissue.brown = std::min(mix(1.0, p.vein_brown, vein) * p.brown * (dead + 2.5 * rotten), 5.0);
   tissue.structure =
       std::clamp(mix(p.structure, p.structure_dry, dead) + 0.3 * vein - 0.8 * rotten, 1.0, 4.0);

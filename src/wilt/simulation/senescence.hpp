@@ -33,6 +33,9 @@ struct TissueState {
 /// The tissue of a species in a state. Throws nothing; the state is clipped to its ranges.
 LeafTissue senescent_tissue(const Pigmentation& pigments, const TissueState& state);
 
+/// The share of its anthocyanin that tissue has made at an age, 0 to 1: only then does its redness show.
+double red_made(double age);
+
 /// What decides, beside dryness, where a leaf changes first; fixed for a leaf. #V each.
 struct SenescencePattern {
   Eigen::VectorXd ahead;            ///< relative, about -0.5 to 0.7

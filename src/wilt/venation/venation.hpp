@@ -55,4 +55,21 @@ struct Venation {
 Venation find_venation(const Leaf& leaf, const SecondaryVeinRule& rule, const VenationOptions& options = {},
                        const Monitor& monitor = {});
 
+/// A vein as it was drawn.
+struct DrawnVein {
+  int order = 1;                     ///< 1 or 2
+  std::vector<SurfacePoint> points;  ///< >= 1, from its base outwards; a primary vein may also come inwards
+  int found = -1;                    ///< the index of the vein found that it is, unchanged; or -1
+};
+
+/// The veins that were found replaced by drawn ones, with distances and tips to match.
+///
+/// A primary vein begins at the petiole: what is missing up to there is added. Its tip is the margin vertex
+/// nearest to its end. Secondary veins belong to the primary vein nearest to their base. Tips and primary
+/// veins are put in the order of the margin. Drawing what was found gives `found` back, bit by bit.
+/// Throws Error{input}, naming the vein by its place in `drawn`, when it leaves the blade, two primary veins
+/// end at one tip, an order is neither 1 nor 2, or there is no primary vein. Deterministic.
+Venation with_drawn_veins(const Leaf& leaf, const Venation& found, const std::vector<DrawnVein>& drawn,
+                          const VenationOptions& options = {});
+
 }  // namespace wilt

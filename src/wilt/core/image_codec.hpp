@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "wilt/core/image.hpp"
 
@@ -19,11 +20,11 @@ std::string encode_png(const Image& image);
 /// neither, or damaged.
 Image decode_image(std::string_view bytes);
 
-/// Whether the name ends in .png, .jpg or .jpeg.
-bool is_picture_path(const std::string& path);
+/// The opacity of a PNG's pixels, 255 opaque, row by row; empty when the picture has no alpha channel. Throws
+/// as decode_image does.
+std::vector<std::uint8_t> decode_alpha(std::string_view bytes);
 
-/// Writes the picture by its name's end, whole or not at all. Throws Error{configuration} for another end,
-/// Error{output} when it cannot be written.
-void write_image(const std::string& path, const Image& image);
+/// The picture at another size, filtered in linear light; its own at its own size.
+Image resized(const Image& image, int width, int height);
 
 }  // namespace wilt
