@@ -25,7 +25,8 @@ TEST_F(ReadLeaf, ChecksItsOptions) {
   options.nth = 0;
   EXPECT_NE(refusal("a.svg", options, ErrorCode::configuration).find("1 or more"), std::string::npos);
   options.nth = 2;
-  EXPECT_NE(refusal("a.obj", options, ErrorCode::configuration).find("only a photo, a drawing or a scan"), std::string::npos);
+  EXPECT_NE(refusal("a.obj", options, ErrorCode::configuration).find("only a photo, a drawing or a scan"),
+            std::string::npos);
   options = {};
   options.threshold = 20.0;
   EXPECT_NE(refusal("a.obj", options, ErrorCode::configuration).find("go with a photo"), std::string::npos);
