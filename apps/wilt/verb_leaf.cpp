@@ -89,12 +89,15 @@ void run(const Request& request, const GlobalOptions& options) {
 
 void add_leaf(CLI::App& app, const GlobalOptions& options) {
   const auto request = std::make_shared<Request>();
-  CLI::App* verb = app.add_subcommand("leaf",
-                                      "The leaf as a mesh\n\n"
-                                      "Examples:\n"
-                                      "  wilt leaf grape -o grape.glb --vertices 5000 --seed 7\n"
-                                      "  wilt leaf drawing.svg -o leaf.obj\n"
-                                      "  wilt leaf scan.obj -o even.glb --vertices 3000     remeshed\n");
+  CLI::App* verb =
+      app.add_subcommand("leaf",
+                         "The leaf as a mesh\n\n"
+                         "Examples:\n"
+                         "  wilt leaf grape -o grape.glb --vertices 5000 --seed 7\n"
+                         "  wilt leaf drawing.svg -o leaf.obj\n"
+                         "  wilt leaf blade.obj -o even.glb --vertices 3000     remeshed\n"
+                         "  wilt leaf scan.xyz -o leaf.glb                      a point cloud\n"
+                         "  wilt leaf ragged.ply --scan -o leaf.glb             a scanned mesh\n");
   add_leaf_options(*verb, request->leaf);
   verb->add_option("-o,--output", request->output, ".glb or .obj")->type_name("FILE");
   verb->callback([request, &options] { run(*request, options); });

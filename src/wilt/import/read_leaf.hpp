@@ -32,7 +32,7 @@ struct ReadOptions {
   std::optional<double> threshold;
   std::uint64_t seed = 1;
   bool scan = false;  ///< take a mesh's vertices as the points of a scan
-  /// The unit of a scan, > 0; absent: millimetres if the blade is 2 units long or more, else metres.
+  /// The unit of a scan, > 0; absent: millimetres if the blade's box is 2 units across or more, else metres.
   std::optional<double> mm_per_unit;
 };
 
