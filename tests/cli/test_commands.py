@@ -61,7 +61,7 @@ class CommandLine(unittest.TestCase):
         self.expect(3, "leaf", broken, "-o", self.dir / "m.glb", says="broken.obj")
         photo = self.dir / "leaf.jpg"
         photo.write_bytes(b"not yet")
-        self.expect(3, "leaf", photo, "-o", self.dir / "m.glb", says=".svg")
+        self.expect(3, "leaf", photo, "-o", self.dir / "m.glb", says="give a PNG or a JPEG")
 
     def test_what_cannot_be_written_exits_5_before_the_work(self):
         self.expect(5, "simulate", "maple", "-o", self.dir / "missing" / "m.glb", says="create it first")

@@ -59,10 +59,11 @@ def petiole_of(half):
 
 
 def margin_of(half):
+    """From the petiole along the margin to the apex, and back along the midrib."""
     points = [petiole_of(half)]
     for piece in MARGIN:
         points.extend(outwards(half[piece], points[-1]))
-    return np.array(points)
+    return np.vstack([points, outwards(half["m"], points[0])[::-1]])
 
 
 def side_of(half, margin):

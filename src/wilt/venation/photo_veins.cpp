@@ -6,6 +6,7 @@
 #include <limits>
 #include <queue>
 
+#include "wilt/geodesics/exact_geodesics.hpp"
 #include "wilt/geodesics/nearest_point.hpp"
 #include "wilt/geodesics/trace.hpp"
 
@@ -14,8 +15,9 @@ namespace {
 
 constexpr double kFloor = 0.06;         // strength of a texel without a ridge, for its cost
 constexpr double kClear = 0.5;          // mean strength along a vein
-constexpr double kOwnRoot = 0.10;       // a primary vein is on its own from here on, of the leaf's length
+constexpr double kOwnRoot = 0.08;       // a primary vein is on its own from here on, of the leaf's length
 constexpr double kLeastPrimary = 0.35;  // its length at least, of the longest
+constexpr double kTipWeight = 1.3;      // of a tip that the margin shows, over a tooth beside it
 constexpr double kLeastSecondary = 0.06;
 constexpr double kSameEnd = 0.08;  // ends nearer than this are of one vein
 constexpr int kClaim = 3;          // texels beside a vein that belong to it
@@ -191,23 +193,33 @@ class Tracer {
     PeakOptions small;
     small.window_length = 0.02;
     small.min_prominence = 0.004;
-    std::vector<Way> ways;
+    struct Candidate {
+      Way way;
+      double weight;
+      VertexId tip;
+    };
+    std::vector<Candidate> candidates;
     for (const Peak& peak : find_peaks(found_.margin, small)) {
-      Way way = grid_.way_to(uv_of(found_.margin.vertices[std::size_t(peak.index)]));
-      if (way.size() > 1) ways.push_back(std::move(way));
+      const VertexId vertex = found_.margin.vertices[std::size_t(peak.index)];
+      const bool is_tip = std::any_of(found_.tips.begin(), found_.tips.end(),
+                                      [vertex](const Tip& tip) { return tip.vertex == vertex; });
+      Way way = grid_.way_to(uv_of(vertex));
+      if (way.size() > 1) candidates.push_back({std::move(way), is_tip ? kTipWeight : 1.0, vertex});
     }
     while (true) {
-      const Way* best = nullptr;
-      Branch best_branch;
-      for (const Way& way : ways) {
-        const Branch branch = own_part(grid_, way, way.size());
+      const Candidate* best = nullptr;
+      double most = 0.0;
+      for (const Candidate& candidate : candidates) {
+        const Branch branch = own_part(grid_, candidate.way, candidate.way.size());
         const bool fits = branch.rooted_at <= kOwnRoot * longest_ && branch.clearness >= kClear &&
                           branch.length >= kLeastPrimary * longest_;
-        if (fits && branch.worth > best_branch.worth) best = &way, best_branch = branch;
+        if (!fits || candidate.weight * branch.worth <= most) continue;
+        best = &candidate;
+        most = candidate.weight * branch.worth;
       }
       if (best == nullptr) return;
-      grid_.claim(*best, 0);
-      add(1, *best, 0, best->size());
+      grid_.claim(best->way, 0);
+      add_primary(best->way, best->tip);
     }
   }
 
@@ -229,7 +241,8 @@ class Tracer {
       }
       if (best == nullptr) return;
       grid_.claim(Way(best->begin(), best->begin() + std::ptrdiff_t(best_end)), best_branch.root);
-      add(2, *best, best_branch.root, best_end);
+      DrawnVein vein{2, points_along(*best, best_branch.root, best_end)};
+      if (follows(vein.points, 0)) veins_.push_back(std::move(vein));
     }
   }
 
@@ -251,25 +264,54 @@ class Tracer {
 
   Vec3 place(const SurfacePoint& point) const { return position(leaf_.mesh, leaf_.positions, point); }
 
-  // The stretch of a way as points of the surface, smoothed; left out when it does not stay on the blade.
-  void add(int order, const Way& way, std::size_t begin, std::size_t end) {
-    DrawnVein vein;
-    vein.order = order;
+  // The shortest way to the tip where the mesh does not let the vein through.
+  void add_primary(const Way& way, VertexId tip) {
+    DrawnVein vein{1, points_along(way, 0, way.size())};
+    vein.points.back() = surface_point(leaf_.mesh, tip);
+    if (!follows(vein.points, 1))
+      vein.points = ExactGeodesics(leaf_.mesh, leaf_.positions).paths(leaf_.petiole, {tip})[0].points;
+    veins_.push_back(std::move(vein));
+  }
+
+  // A stretch of a way as points of the surface, smoothed.
+  std::vector<SurfacePoint> points_along(const Way& way, std::size_t begin, std::size_t end) const {
+    std::vector<SurfacePoint> points;
     for (std::size_t i = begin; i < end; i += kPointSpacing) {
       const std::size_t reach = std::min({std::size_t(kSmoothing), i - begin, end - 1 - i});
       Vec2 mean = Vec2::Zero();
       for (std::size_t k = i - reach; k <= i + reach; ++k)
         mean += grid_.uv(way[k]) / (2.0 * double(reach) + 1.0);
-      vein.points.push_back(at(mean));
+      points.push_back(at(mean));
     }
-    vein.points.push_back(at(grid_.uv(way[end - 1])));
-    const DrawnPath traced = trace_through(leaf_.mesh, leaf_.positions, vein.points);
-    if (traced.reached == static_cast<int>(vein.points.size()) && traced.path.points.size() > 1)
-      veins_.push_back(std::move(vein));
+    points.push_back(at(grid_.uv(way[end - 1])));
+    return points;
+  }
+
+  // Leaves out points that cannot be reached straight ahead from those before: veins that border a sinus run
+  // along the margin, which the mesh rounds off. False when that takes more than a third of them.
+  // `from_petiole` is 1 when the way begins at the petiole.
+  bool follows(std::vector<SurfacePoint>& points, int from_petiole) const {
+    std::vector<SurfacePoint> way = points;
+    if (from_petiole == 1) way.insert(way.begin(), surface_point(leaf_.mesh, leaf_.petiole));
+    while (true) {
+      const DrawnPath traced = trace_through(leaf_.mesh, leaf_.positions, way);
+      if (traced.reached == static_cast<int>(way.size())) {
+        points.assign(way.begin() + from_petiole, way.end());
+        return points.size() > 1 && traced.path.points.size() > 1;
+      }
+      way.erase(way.begin() + traced.reached);
+      if (3 * way.size() < 2 * points.size()) return false;
+    }
   }
 
   SurfacePoint at(const Vec2& uv) const {
-    return nearest_point(leaf_.skin.faces, plane_, Vec3(uv.x(), uv.y(), 0.0)).point;
+    SurfacePoint point = nearest_point(leaf_.skin.faces, plane_, Vec3(uv.x(), uv.y(), 0.0)).point;
+    // Off the rim: between points on a concave rim the straight way leaves the blade.
+    const auto corners = leaf_.mesh.face_vertices(point.face);
+    const bool at_rim =
+        std::any_of(corners.begin(), corners.end(), [this](VertexId v) { return leaf_.mesh.is_boundary(v); });
+    if (at_rim) point.barycentric = 0.6 * point.barycentric + Vec3::Constant(0.4 / 3.0);
+    return point;
   }
 
   const Leaf& leaf_;
