@@ -23,6 +23,21 @@ bool looks_like_a_file(const std::string& leaf) {
   return std::filesystem::path(leaf).has_extension() || leaf.find('/') != std::string::npos;
 }
 
+ReadOptions read_options(const LeafRequest& request) {
+  ReadOptions options;
+  options.vertices = request.vertices;
+  options.seed = request.seed;
+  options.nth = request.which == "all" ? 1 : std::stoi(request.which);
+  options.mm_per_pixel = request.mm_per_pixel;
+  options.mask = request.mask;
+  options.threshold = request.threshold;
+  options.scan = request.scan;
+  options.mm_per_unit = request.mm_per_unit;
+  if (!request.petiole.empty())
+    options.petiole = parse_pair(request.petiole, ',', "--petiole takes two numbers, X,Y");
+  return options;
+}
+
 }  // namespace
 
 void add_leaf_options(CLI::App& verb, LeafRequest& request) {
@@ -39,8 +54,11 @@ void add_leaf_options(CLI::App& verb, LeafRequest& request) {
   verb.add_option("--petiole", request.petiole,
                   "Where the stalk meets the blade: pixels of a photo, units of a file")
       ->type_name("X,Y");
-  verb.add_option("--leaf", request.nth, "Take the N-th largest leaf of a photo, drawing or scan (1)")
-      ->check(CLI::Range(1, 10000))
+  verb.add_option(
+          "--leaf", request.which,
+          "Take the N-th largest leaf of a photo, drawing or scan (1),\nor all of a photo: leaf-1.glb, "
+          "leaf-2.glb ...")
+      ->check(CLI::Range(1, 10000) | CLI::IsMember({"all"}))
       ->type_name("N");
   verb.add_option("--mm-per-pixel", request.mm_per_pixel, "Scale of a photo (else 100 mm across)")
       ->type_name("MM");
@@ -63,7 +81,7 @@ bool is_species(const std::string& leaf) {
 
 Leaf load_leaf(const LeafRequest& request, const Monitor& monitor) {
   if (is_species(request.leaf)) {
-    if (!request.petiole.empty() || request.nth != 1 || !request.mask.empty() || request.mm_per_pixel ||
+    if (!request.petiole.empty() || request.which != "1" || !request.mask.empty() || request.mm_per_pixel ||
         request.threshold || request.scan || request.mm_per_unit)
       throw Error(ErrorCode::configuration,
                   "--petiole, --leaf and the options of photos and scans go with a file; a species has its "
@@ -77,18 +95,30 @@ Leaf load_leaf(const LeafRequest& request, const Monitor& monitor) {
                 fmt::format("'{}' is neither a species ({}) nor a file{}", request.leaf,
                             fmt::join(species_names(), ", "), did_you_mean(request.leaf, species_names())));
   }
-  ReadOptions options;
-  options.vertices = request.vertices;
-  options.seed = request.seed;
-  options.nth = request.nth;
-  options.mm_per_pixel = request.mm_per_pixel;
-  options.mask = request.mask;
-  options.threshold = request.threshold;
-  options.scan = request.scan;
-  options.mm_per_unit = request.mm_per_unit;
-  if (!request.petiole.empty())
-    options.petiole = parse_pair(request.petiole, ',', "--petiole takes two numbers, X,Y");
-  return read_leaf(request.leaf, options, monitor);
+  return read_leaf(request.leaf, read_options(request), monitor);
+}
+
+void for_each_leaf(
+    const LeafRequest& request,
+    const std::function<void(const LeafRequest& leaf,
+                             const std::function<std::string(const std::string&)>& name)>& run) {
+  const bool all = request.which == "all" && std::filesystem::is_regular_file(request.leaf);
+  if (!all) return run(request, [](const std::string& path) { return path; });
+  if (!request.petiole.empty() || !request.veins.empty())
+    throw Error(ErrorCode::configuration,
+                "--petiole and --veins are one leaf's; give --leaf N instead of all");
+  LeafRequest one = request;
+  one.which = "1";
+  const int count = count_leaves(request.leaf, read_options(one));
+  for (int n = 1; n <= count; ++n) {
+    one.which = std::to_string(n);
+    run(one, [n](const std::string& path) {
+      if (path.empty()) return path;
+      const std::size_t name = path.rfind('/') == std::string::npos ? 0 : path.rfind('/') + 1;
+      const std::size_t dot = std::min(path.find('.', name), path.size());
+      return fmt::format("{}-{}{}", path.substr(0, dot), n, path.substr(dot));
+    });
+  }
 }
 
 void add_veins_option(CLI::App& verb, LeafRequest& request) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -19,8 +20,8 @@ struct LeafRequest {
   std::string leaf;             ///< a species' name or a file
   std::optional<int> vertices;  ///< absent: 2000, or a mesh file's own
   std::uint64_t seed = 1;
-  std::string petiole;  ///< "X,Y" or empty
-  int nth = 1;
+  std::string petiole;                            ///< "X,Y" or empty
+  std::string which = "1";                        ///< --leaf: the N-th largest, or "all"
   std::optional<double> mm_per_pixel, threshold;  ///< of a photo
   std::string mask;                               ///< a picture's name, or empty
   bool scan = false;                              ///< a mesh's vertices are the points of a scan
@@ -30,6 +31,14 @@ struct LeafRequest {
 
 /// Adds LEAF and the options that go with it to a verb.
 void add_leaf_options(CLI::App& verb, LeafRequest& request);
+
+/// Calls run(leaf, name) for every leaf that --leaf asks for: `leaf` asks for that one alone, and name()
+/// turns a result's name into that leaf's: leaf.glb becomes leaf-2.glb with --leaf all; an empty name stays
+/// empty.
+void for_each_leaf(
+    const LeafRequest& request,
+    const std::function<void(const LeafRequest& leaf,
+                             const std::function<std::string(const std::string&)>& name)>& run);
 
 /// Adds --veins.
 void add_veins_option(CLI::App& verb, LeafRequest& request);

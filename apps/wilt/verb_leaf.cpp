@@ -94,13 +94,22 @@ void add_leaf(CLI::App& app, const GlobalOptions& options) {
                          "The leaf as a mesh\n\n"
                          "Examples:\n"
                          "  wilt leaf grape -o grape.glb --vertices 5000 --seed 7\n"
+                         "  wilt leaf photo.jpg -o leaf.glb --mm-per-pixel 0.1\n"
+                         "  wilt leaf photo.jpg --leaf all -o leaf.glb          leaf-1.glb, leaf-2.glb ...\n"
                          "  wilt leaf drawing.svg -o leaf.obj\n"
                          "  wilt leaf blade.obj -o even.glb --vertices 3000     remeshed\n"
                          "  wilt leaf scan.xyz -o leaf.glb                      a point cloud\n"
                          "  wilt leaf ragged.ply --scan -o leaf.glb             a scanned mesh\n");
   add_leaf_options(*verb, request->leaf);
   verb->add_option("-o,--output", request->output, ".glb or .obj")->type_name("FILE");
-  verb->callback([request, &options] { run(*request, options); });
+  verb->callback([request, &options] {
+    for_each_leaf(request->leaf, [&](const LeafRequest& leaf, const auto& name) {
+      Request one = *request;
+      one.leaf = leaf;
+      one.output = name(one.output);
+      run(one, options);
+    });
+  });
 }
 
 }  // namespace wilt::cli

@@ -132,6 +132,7 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
       "Withers a leaf and writes it\n\n"
       "Examples:\n"
       "  wilt simulate maple -o maple.glb\n"
+      "  wilt simulate photo.jpg -o mine.glb -o mine.png\n"
       "  wilt simulate drawing.svg -o mine.glb -o mine.png --report report.json\n"
       "  wilt simulate maple -o maple.usda -o maple.pvd -o 'frames/maple.####.obj'   USD, ParaView, a file "
       "per frame\n"
@@ -175,7 +176,16 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
   verb->add_option("--threads", request->threads, "Threads at most (all); results do not depend on it")
       ->type_name("N")
       ->check(CLI::Range(0, 1024));
-  verb->callback([request, seed, &options] { run(*request, seed->count() > 0, options); });
+  verb->callback([request, seed, &options] {
+    for_each_leaf(request->leaf, [&](const LeafRequest& leaf, const auto& name) {
+      Request one = *request;
+      one.leaf = leaf;
+      for (std::string& path : one.outputs) path = name(path);
+      one.report = name(one.report);
+      one.forces = name(one.forces);
+      run(one, seed->count() > 0, options);
+    });
+  });
 }
 
 }  // namespace wilt::cli

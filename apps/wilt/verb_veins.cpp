@@ -68,7 +68,14 @@ void add_veins(CLI::App& app, const GlobalOptions& options) {
   verb->add_option("-o,--output", request->outputs, ".json, .svg or .obj; repeatable")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  verb->callback([request, &options] { run(*request, options); });
+  verb->callback([request, &options] {
+    for_each_leaf(request->leaf, [&](const LeafRequest& leaf, const auto& name) {
+      Request one = *request;
+      one.leaf = leaf;
+      for (std::string& path : one.outputs) path = name(path);
+      run(one, options);
+    });
+  });
 }
 
 }  // namespace wilt::cli

@@ -29,8 +29,10 @@ LEAVES = [
 # The pieces of a half's margin from the petiole to the apex; m, d and p are its main veins.
 MARGIN = "pa pb pc pd ps da db dc dd ds ma mb mc md".split()
 SHAPE = (1536, 2048)
-# The traces lie 2 to 3 pixels beside the photo's edge in places (Cabernet): .97, not .98, of it.
-LEAST_OVERLAP, FARTHEST_PETIOLE, FARTHEST_TIP, FARTHEST_VEIN = 0.965, 0.03, 0.03, 0.05
+# What is asked of a photo's largest leaf. The second leaves have lobes that overlap (one tip and its vein are missed, see
+# docs/photos.md) and are held to the outline and the petiole alone.
+LEAST_OVERLAP, LEAST_OVERLAP_SECOND = 0.98, 0.97
+FARTHEST_PETIOLE, FARTHEST_TIP, FARTHEST_VEIN = 0.03, 0.03, 0.02
 
 
 def filled(rings, shape=SHAPE):
@@ -159,8 +161,9 @@ def main():
             row = measure(wilt, folder, photo, number, halves, os.path.join(scratch, "leaf"))
             print(f"{photo + ' ' + str(number):32} {row['overlap']:7.4f} {row['petiole']:7.4f} {row['tips']:6.4f}"
                   f" {row['found']:6} {row['veins']:6.4f} {row['farthest']:8.4f} {row['secondary']:10}")
-            failed |= (row["overlap"] < LEAST_OVERLAP or row["petiole"] > FARTHEST_PETIOLE
-                       or row["tips"] > FARTHEST_TIP or row["veins"] > FARTHEST_VEIN)
+            failed |= row["overlap"] < (LEAST_OVERLAP if number == 1 else LEAST_OVERLAP_SECOND)
+            failed |= row["petiole"] > FARTHEST_PETIOLE
+            failed |= number == 1 and (row["tips"] > FARTHEST_TIP or row["veins"] > FARTHEST_VEIN)
     return 1 if failed else 0
 
 

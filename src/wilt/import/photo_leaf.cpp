@@ -45,6 +45,12 @@ std::string listed(const std::vector<PhotoObject>& objects) {
   return fmt::format("{}", fmt::join(reasons, ", "));
 }
 
+int count_of(const std::vector<PhotoObject>& objects) {
+  const auto leaves = std::count_if(objects.begin(), objects.end(),
+                                    [](const PhotoObject& object) { return object.no_leaf_reason.empty(); });
+  return static_cast<int>(leaves > 0 ? leaves : static_cast<std::ptrdiff_t>(objects.size()));
+}
+
 // The leaf that was asked for, with what a user should know of the choice.
 PhotoObject chosen(std::vector<PhotoObject> objects, int nth, std::vector<std::string>& notes) {
   if (objects.empty())
@@ -52,12 +58,10 @@ PhotoObject chosen(std::vector<PhotoObject> objects, int nth, std::vector<std::s
                 "nothing in the photo stands out from its background; put the leaf on a "
                 "background of another colour, or pass --threshold or --mask mask.png");
   const bool only_others = !objects.front().no_leaf_reason.empty();
-  const auto leaves = std::count_if(objects.begin(), objects.end(),
-                                    [](const PhotoObject& object) { return object.no_leaf_reason.empty(); });
-  const auto available = only_others ? static_cast<std::ptrdiff_t>(objects.size()) : leaves;
-  if (nth > available)
+  const int leaves = count_of(objects);
+  if (nth > leaves)
     throw Error(ErrorCode::input,
-                fmt::format("--leaf {}: the photo shows {} that may be a leaf", nth, available));
+                fmt::format("--leaf {}: the photo shows {} that may be a leaf", nth, leaves));
   PhotoObject object = std::move(objects[static_cast<std::size_t>(nth - 1)]);
   if (only_others) {
     notes.push_back(fmt::format("what was taken for the leaf has the shape of {}", object.no_leaf_reason));
@@ -124,6 +128,11 @@ void settle_scale(const ReadOptions& options, DrawnLeaf& drawn) {
 }
 
 }  // namespace
+
+int count_photo_leaves(const std::filesystem::path& file, const ReadOptions& options) {
+  const Photo photo = read_photo(file);
+  return count_of(photo_objects(cover_of(photo, options).share));
+}
 
 Leaf read_photo_leaf(const std::filesystem::path& file, const ReadOptions& options, const Monitor& monitor) {
   monitor.report("photo", 0.0);

@@ -9,4 +9,7 @@ namespace wilt::detail {
 /// photo as texture.
 Leaf read_photo_leaf(const std::filesystem::path& file, const ReadOptions& options, const Monitor& monitor);
 
+/// How many things in the photo may be leaves; where none may, how many things there are.
+int count_photo_leaves(const std::filesystem::path& file, const ReadOptions& options);
+
 }  // namespace wilt::detail

@@ -95,6 +95,13 @@ Leaf read(const std::filesystem::path& file, const std::string& extension, const
   return read_mesh_or_scan(file, name, options, monitor);
 }
 
+std::string extension_of(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
 }  // namespace
 
 const std::vector<std::string>& leaf_file_extensions() {
@@ -104,9 +111,7 @@ const std::vector<std::string>& leaf_file_extensions() {
 }
 
 Leaf read_leaf(const std::filesystem::path& file, const ReadOptions& options, const Monitor& monitor) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = extension_of(file);
   const std::string name = file.filename().string();
   if (!one_of(extension, leaf_file_extensions()))
     throw Error(ErrorCode::input,
@@ -124,6 +129,10 @@ Leaf read_leaf(const std::filesystem::path& file, const ReadOptions& options, co
   }
   for (const std::string& note : leaf.notes) monitor.say(note);
   return leaf;
+}
+
+int count_leaves(const std::filesystem::path& file, const ReadOptions& options) {
+  return is_photo(extension_of(file)) ? detail::count_photo_leaves(file, options) : 1;
 }
 
 }  // namespace wilt

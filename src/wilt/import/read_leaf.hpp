@@ -48,4 +48,7 @@ const std::vector<std::string>& leaf_file_extensions();
 Leaf read_leaf(const std::filesystem::path& file, const ReadOptions& options = {},
                const Monitor& monitor = {});
 
+/// How many leaves a photo shows, as `nth` counts them; 1 for every other file. Throws as read_leaf does.
+int count_leaves(const std::filesystem::path& file, const ReadOptions& options = {});
+
 }  // namespace wilt
