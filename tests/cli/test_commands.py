@@ -7,17 +7,37 @@ import json
 import os
 import pathlib
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+import zlib
 
 WILT = sys.argv.pop(1)
 
 
 def wilt(*arguments, **options):
     return subprocess.run([WILT, *map(str, arguments)], capture_output=True, text=True, timeout=600, **options)
+
+
+def two_leaves():
+    """A PNG of two pointed leaves, green on white."""
+    rows = bytearray()
+    for y in range(300):
+        rows.append(0)
+        for x in range(500):
+            inside = any(abs(x - cx) < 60 * scale and abs(y - 150) < 70 * scale * (1 - (abs(x - cx) / (60 * scale)) ** 1.5)
+                         for cx, scale in ((130, 1.5), (360, 1.0)))
+            rows += bytes((60, 130, 40) if inside else (240, 240, 238))
+
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+    header = struct.pack(">IIBBBBB", 500, 300, 8, 2, 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(bytes(rows)))
+            + chunk(b"IEND", b""))
 
 
 class CommandLine(unittest.TestCase):
@@ -62,6 +82,18 @@ class CommandLine(unittest.TestCase):
         photo = self.dir / "leaf.jpg"
         photo.write_bytes(b"not yet")
         self.expect(3, "leaf", photo, "-o", self.dir / "m.glb", says="give a PNG or a JPEG")
+
+    def test_all_leaves_of_a_photo_get_files_of_their_own(self):
+        photo = self.dir / "two.png"
+        photo.write_bytes(two_leaves())
+        result = self.expect(0, "leaf", photo, "--leaf", "all", "-o", self.dir / "leaf.obj", "--vertices", 300)
+        self.assertIn("the scale is unknown", result.stderr)
+        sizes = [sum(line.startswith("v ") for line in (self.dir / f"leaf-{n}.obj").open()) for n in (1, 2)]
+        self.assertTrue(all(abs(size - 300) < 20 for size in sizes), sizes)
+        self.assertFalse((self.dir / "leaf-3.obj").exists())
+        self.expect(2, "leaf", photo, "--leaf", "all", "--petiole", "10,10", "-o", self.dir / "leaf.obj", says="--leaf N")
+        self.expect(3, "leaf", photo, "--leaf", 3, "-o", self.dir / "leaf.obj", says="shows 2")
+        self.expect(2, "leaf", photo, "--mm-per-unit", 2, "-o", self.dir / "leaf.obj", says="goes with a scan")
 
     def test_what_cannot_be_written_exits_5_before_the_work(self):
         self.expect(5, "simulate", "maple", "-o", self.dir / "missing" / "m.glb", says="create it first")

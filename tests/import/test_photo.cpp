@@ -230,7 +230,7 @@ TEST_F(PhotoLeaf, StandsUprightByItsExifOrientation) {
 }
 
 // Veins of a palmate leaf whose basal lobes overlap: no sinus leads to the petiole in the outline.
-cv::Mat3b closed_sinus(const Vec2& petiole) {
+cv::Mat3b closed_sinus(const Vec2& petiole, const std::vector<double>& veins = {90, 25, 155, -30, 210}) {
   cv::Mat3b photo = blank({250, 250, 245});
   std::vector<Vec2> ring;
   for (int i = 0; i < 2000; ++i) {
@@ -240,7 +240,7 @@ cv::Mat3b closed_sinus(const Vec2& petiole) {
     ring.push_back(Vec2(450.0, 420.0) + (lobes - notch) * Vec2(std::cos(angle), std::sin(angle)));
   }
   paint(photo, ring, kGreen);
-  for (const double degrees : {90.0, 25.0, 155.0, -30.0, 210.0}) {
+  for (const double degrees : veins) {
     const double angle = degrees * kPi / 180.0;
     const Vec2 end = petiole + 190.0 * Vec2(std::cos(angle), std::sin(angle));
     cv::line(photo, cv::Point2d(petiole.x(), petiole.y()), cv::Point2d(end.x(), end.y()), {120, 160, 80}, 5,
@@ -263,6 +263,13 @@ TEST_F(PhotoLeaf, FindsAPetioleBehindLobesThatOverlapByTheVeins) {
   ReadOptions by_hand;
   by_hand.petiole = petiole;
   EXPECT_LT((read_leaf(file, by_hand).positions.row(0) - leaf.positions.row(0)).norm(), 0.01);
+}
+
+// Oracle: botany; where veins leave a midrib in pairs there is no petiole.
+TEST_F(PhotoLeaf, TakesNoNodeOfAPinnateLeafForItsPetiole) {
+  const cv::Mat3b photo = closed_sinus(Vec2(455, 400), {90, 45, 135, -90, 60, 120});
+  const Leaf leaf = read_leaf(write("pinnate.png", encode_png(image_of(photo))));
+  EXPECT_FALSE(test::has_note(leaf, "main veins meet")) << test::notes_of(leaf);
 }
 
 // Oracle: the mask, which has another leaf than the photo.

@@ -18,6 +18,7 @@ constexpr int kDirections = 72;   // of rays around a point
 constexpr double kRayFrom = 5.0;  // pixels of the reduced leaf
 constexpr double kRayTo = 75.0;
 constexpr int kFewestVeins = 5;
+constexpr double kWideGap = 105.0 / 180.0 * std::numbers::pi;  // between neighbouring main veins
 constexpr double kFaintest = 0.42;  // strength of a main vein over the second strongest
 constexpr double kPi = std::numbers::pi;
 
@@ -90,6 +91,16 @@ Fan fan_at(const std::vector<cv::Mat1f>& rays, int y, int x) {
   // A fork is as good as its fifth vein is strong, and better for every further one.
   fan.score = fan.strengths[2] + fan.strengths[3] + 2.0 * fan.strengths[4] + 0.5 * fan.strengths[5];
   return fan;
+}
+
+// Whether veins leave to all sides but one, where the sinus is; at a node of a pinnate leaf they leave two
+// sides free, left and right of its midrib.
+bool is_palmate(std::vector<double> angles) {
+  std::sort(angles.begin(), angles.end());
+  angles.push_back(angles.front() + 2.0 * kPi);
+  int wide = 0;
+  for (std::size_t k = 0; k + 1 < angles.size(); ++k) wide += angles[k + 1] - angles[k] > kWideGap ? 1 : 0;
+  return wide <= 1;
 }
 
 // Where lines along the fan's directions meet: least squares over the lines' pixels near the fork.
@@ -168,6 +179,7 @@ std::optional<VeinFork> find_vein_fork(const cv::Mat3b& rgb, const PhotoObject& 
   fork.place = {object.box.x + (place.x + 0.5) * reduction, object.box.y + (place.y + 0.5) * reduction};
   for (int k = 0; k < veins; ++k)
     fork.angles.push_back(2.0 * kPi * best.directions[static_cast<std::size_t>(k)] / kDirections);
+  if (!is_palmate(fork.angles)) return std::nullopt;
   return fork;
 }
 

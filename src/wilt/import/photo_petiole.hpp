@@ -16,7 +16,8 @@ struct VeinFork {
   std::vector<double> angles;  ///< radians, directions of the veins that leave it, x to the right, y down
 };
 
-/// The place of a palmate leaf from which five veins or more leave; none when the photo shows no such place.
+/// The place of a palmate leaf from which five veins or more leave; none when the photo shows no such place,
+/// or one of a pinnate leaf, whose veins leave both sides of the midrib free.
 /// Veins are ridges of lightness, light or dark, or of colour,
 /// found by the Hessian at the width of a main vein.
 std::optional<VeinFork> find_vein_fork(const cv::Mat3b& rgb, const PhotoObject& object);
