@@ -3,8 +3,6 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "wilt/import/photo_file.hpp"
 
@@ -13,7 +11,6 @@ namespace wilt::detail {
 struct Cover {
   cv::Mat1f share;         ///< of every pixel, 0 to 1, that something covers
   double threshold = 0.0;  ///< colour difference that was taken for the edge; 0 with alpha or mask
-  std::vector<std::string> notes;
 };
 
 /// From the alpha channel.

@@ -18,7 +18,6 @@ namespace wilt::detail {
 namespace {
 
 constexpr double kAssumedExtent = 100.0;  // mm across, of a leaf whose scale nobody gave
-constexpr double kLeastContrast = 1.6;    // mean difference of a leaf over the threshold, below it is unsure
 
 Cover cover_of(const Photo& photo, const ReadOptions& options) {
   if (!options.mask.empty()) return cover_of_alpha(read_mask(options.mask, photo));
