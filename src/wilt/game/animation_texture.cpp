@@ -169,6 +169,7 @@ std::vector<WrittenLevel> write_levels(const std::string& path, const Clip& clip
   GlbScene scene;
   scene.frames.kept = {0};
   scene.iterations = {clip.frames.front().iteration};
+  scene.times = {0.0};
   scene.texture = clip.texture;
   scene.normal_texture = clip.normal_texture;
   scene.extras = glb_extras(clip, scene.frames);

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "wilt/core/image_codec.hpp"
 #include "wilt/core/parallel.hpp"
 #include "wilt/output/glb_builder.hpp"
 #include "wilt/output/glb_container.hpp"
@@ -101,14 +102,12 @@ void add_mesh(GlbBuilder& builder, const GlbScene& scene, const Moving& moving, 
 }
 
 // Key frame k shows frame k: the weight of target k is one there, all others are zero.
-void add_animation(GlbBuilder& builder, const std::vector<int>& iterations, double seconds) {
-  const int count = static_cast<int>(iterations.size());
+void add_animation(GlbBuilder& builder, const std::vector<double>& key_times) {
+  const int count = static_cast<int>(key_times.size());
   if (count < 2) return;
-  const double first = iterations.front(), last = iterations.back();
   Floats times(count, 1), weights = Floats::Zero(count * count, 1);
   for (int k = 0; k < count; ++k) {
-    times(k) =
-        static_cast<float>(seconds * (iterations[static_cast<std::size_t>(k)] - first) / (last - first));
+    times(k) = static_cast<float>(key_times[static_cast<std::size_t>(k)]);
     weights(k * count + k) = 1.0F;
   }
   tinygltf::AnimationSampler sampler;
@@ -153,7 +152,7 @@ int add_material(GlbBuilder& builder, const std::string& name) {
 int add_texture(GlbBuilder& builder, const std::string& bytes, const char* name) {
   tinygltf::Image image;
   image.name = name;
-  image.mimeType = bytes.substr(0, 2) == "\xff\xd8" ? "image/jpeg" : "image/png";
+  image.mimeType = is_jpeg(bytes) ? "image/jpeg" : "image/png";
   image.bufferView = builder.add_view(bytes.data(), bytes.size(), 0);
   builder.model.images.push_back(image);
   tinygltf::Texture texture;
@@ -210,7 +209,7 @@ std::string glb_bytes(const GlbScene& scene) {
     add_mesh(builder, scene, scene.meshes[i], material);
     if (i == 0) add_textures(builder, scene, material);
   }
-  add_animation(builder, scene.iterations, scene.seconds);
+  add_animation(builder, scene.times);
   return serialise(builder, scene.extras);
 }
 

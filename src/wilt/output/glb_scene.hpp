@@ -15,7 +15,7 @@ struct GlbScene {
   std::vector<Moving> meshes;   ///< >= 1
   FrameChoice frames;           ///< those that are shown, >= 1
   std::vector<int> iterations;  ///< one for each of them, ascending
-  double seconds = 4.0;         ///< from the first to the last, > 0; time is proportional to the iteration
+  std::vector<double> times;    ///< seconds, one for each of them: key_times() of clip_options.hpp
   std::string texture;          ///< bytes of a PNG or JPEG; empty: white
   std::string normal_texture;   ///< the same of a normal map; empty: none
   std::string extras = "{}";    ///< JSON text of asset.extras.wilt

@@ -6,6 +6,7 @@
 
 #include "wilt/core/check.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/output/clip_options.hpp"
 #include "wilt/output/file.hpp"
 #include "wilt/output/frame_choice.hpp"
 #include "wilt/output/glb_extras.hpp"
@@ -67,9 +68,11 @@ GlbScene glb_scene(const Clip& clip, const GlbOptions& options) {
   if (clip.frames.front().stalk.rows() >= 2) scene.meshes.push_back(moving_stalk(clip, options.stalk_sides));
   const int all = std::max(2, static_cast<int>(clip.frames.size()));
   scene.frames = choose_frames(clip.frames, options.max_morphs > 0 ? options.max_morphs : all);
-  for (const int k : scene.frames.kept)
+  const std::vector<double> times = key_times(clip.frames, options.seconds);
+  for (const int k : scene.frames.kept) {
     scene.iterations.push_back(clip.frames[static_cast<std::size_t>(k)].iteration);
-  scene.seconds = options.seconds;
+    scene.times.push_back(times[static_cast<std::size_t>(k)]);
+  }
   scene.texture = clip.texture;
   scene.normal_texture = clip.normal_texture;
   scene.extras = glb_extras(clip, scene.frames);

@@ -1,7 +1,6 @@
 #include "wilt/venation/photo_veins.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <queue>
