@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "bench/maple.hpp"
-#include "wilt/output/file.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/output/gltf.hpp"
 
 namespace wilt::bench {

@@ -8,10 +8,10 @@
 
 #include "arguments.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/core/nearest.hpp"
 #include "wilt/import/read_leaf.hpp"
 #include "wilt/leaf/species.hpp"
-#include "wilt/output/file.hpp"
 #include "wilt/output/veins_files.hpp"
 
 namespace wilt::cli {

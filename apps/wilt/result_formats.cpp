@@ -8,10 +8,10 @@
 
 #include "run.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/game/animation_texture.hpp"
 #include "wilt/game/texel_layout.hpp"
 #include "wilt/output/beside.hpp"
-#include "wilt/output/file.hpp"
 #include "wilt/output/obj.hpp"
 #include "wilt/output/picture_file.hpp"
 #include "wilt/output/ply.hpp"

@@ -8,8 +8,8 @@
 #include "run.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/leaf/species.hpp"
-#include "wilt/output/file.hpp"
 #include "wilt/output/picture_file.hpp"
 #include "wilt/render/contact_sheet.hpp"
 

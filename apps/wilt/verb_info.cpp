@@ -10,9 +10,9 @@
 #include "load_leaf.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/import/read_leaf.hpp"
 #include "wilt/mesh/geometry.hpp"
-#include "wilt/output/file.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/output/point_cache.hpp"
 

@@ -10,9 +10,9 @@
 #include "run.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/core/nearest.hpp"
 #include "wilt/core/parallel.hpp"
-#include "wilt/output/file.hpp"
 
 namespace wilt::cli {
 namespace {

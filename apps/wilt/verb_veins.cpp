@@ -9,7 +9,7 @@
 #include "run.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
-#include "wilt/output/file.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/output/veins_files.hpp"
 
 namespace wilt::cli {

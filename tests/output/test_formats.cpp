@@ -9,11 +9,11 @@
 
 #include "output/sample_leaf.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/core/image_codec.hpp"
 #include "wilt/core/srgb.hpp"
 #include "wilt/output/beside.hpp"
 #include "wilt/output/coordinates.hpp"
-#include "wilt/output/file.hpp"
 #include "wilt/output/obj.hpp"
 #include "wilt/output/ply.hpp"
 #include "wilt/output/point_cache.hpp"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "wilt/core/error.hpp"
-#include "wilt/output/file.hpp"
+#include "wilt/core/file.hpp"
 
 namespace wilt {
 namespace {

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "sample_leaf.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/core/image_codec.hpp"
 #include "wilt/output/beside.hpp"
-#include "wilt/output/file.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/output/obj.hpp"
 #include "wilt/output/ply.hpp"

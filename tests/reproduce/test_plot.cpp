@@ -5,7 +5,7 @@
 
 #include "csv.hpp"
 #include "wilt/core/error.hpp"
-#include "wilt/output/file.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/reproduce/plot.hpp"
 #include "wilt/reproduce/program.hpp"
 

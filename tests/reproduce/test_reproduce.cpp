@@ -8,8 +8,8 @@
 
 #include "csv.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/core/parallel.hpp"
-#include "wilt/output/file.hpp"
 #include "wilt/reproduce/reproduce.hpp"
 
 namespace wilt {

@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "wilt/core/error.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/core/parallel.hpp"
 #include "wilt/game/deep_image.hpp"
 #include "wilt/game/levels_of_detail.hpp"
 #include "wilt/game/texel_layout.hpp"
 #include "wilt/output/beside.hpp"
 #include "wilt/output/coordinates.hpp"
-#include "wilt/output/file.hpp"
 #include "wilt/output/glb_extras.hpp"
 #include "wilt/output/glb_scene.hpp"
 #include "wilt/output/version.hpp"

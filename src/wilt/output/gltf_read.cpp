@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "wilt/core/error.hpp"
-#include "wilt/output/file.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/output/glb_container.hpp"
 #include "wilt/output/gltf.hpp"
 

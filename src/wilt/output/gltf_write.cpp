@@ -6,8 +6,8 @@
 
 #include "wilt/core/check.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/output/clip_options.hpp"
-#include "wilt/output/file.hpp"
 #include "wilt/output/frame_choice.hpp"
 #include "wilt/output/glb_extras.hpp"
 #include "wilt/output/glb_scene.hpp"

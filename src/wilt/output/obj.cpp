@@ -5,10 +5,10 @@
 #include <iterator>
 
 #include "wilt/core/check.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/core/srgb.hpp"
 #include "wilt/output/beside.hpp"
 #include "wilt/output/coordinates.hpp"
-#include "wilt/output/file.hpp"
 #include "wilt/output/moving.hpp"
 #include "wilt/output/version.hpp"
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "wilt/core/error.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/core/image_codec.hpp"
-#include "wilt/output/file.hpp"
 
 namespace wilt {
 

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "wilt/core/file.hpp"
 #include "wilt/core/srgb.hpp"
 #include "wilt/output/byte_order.hpp"
 #include "wilt/output/coordinates.hpp"
-#include "wilt/output/file.hpp"
 #include "wilt/output/moving.hpp"
 #include "wilt/output/version.hpp"
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 
 #include "wilt/core/error.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/output/beside.hpp"
 #include "wilt/output/byte_order.hpp"
-#include "wilt/output/file.hpp"
 #include "wilt/output/moving.hpp"
 
 namespace wilt {

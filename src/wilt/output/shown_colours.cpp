@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "wilt/core/file.hpp"
 #include "wilt/core/image_codec.hpp"
 #include "wilt/core/parallel.hpp"
 #include "wilt/core/srgb.hpp"
 #include "wilt/output/beside.hpp"
-#include "wilt/output/file.hpp"
 
 namespace wilt {
 namespace {

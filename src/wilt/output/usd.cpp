@@ -7,10 +7,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "wilt/core/file.hpp"
 #include "wilt/mesh/surface_mesh.hpp"
 #include "wilt/output/beside.hpp"
 #include "wilt/output/coordinates.hpp"
-#include "wilt/output/file.hpp"
 #include "wilt/output/moving.hpp"
 #include "wilt/output/version.hpp"
 

@@ -5,11 +5,11 @@
 #include <Eigen/Geometry>
 #include <utility>
 
+#include "wilt/core/file.hpp"
 #include "wilt/core/srgb.hpp"
 #include "wilt/output/beside.hpp"
 #include "wilt/output/byte_order.hpp"
 #include "wilt/output/coordinates.hpp"
-#include "wilt/output/file.hpp"
 #include "wilt/output/markup.hpp"
 #include "wilt/output/moving.hpp"
 #include "wilt/output/version.hpp"

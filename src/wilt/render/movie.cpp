@@ -11,7 +11,7 @@
 
 #include "wilt/core/check.hpp"
 #include "wilt/core/error.hpp"
-#include "wilt/output/file.hpp"
+#include "wilt/core/file.hpp"
 
 namespace wilt {
 namespace {

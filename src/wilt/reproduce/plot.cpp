@@ -9,7 +9,7 @@
 
 #include "wilt/core/check.hpp"
 #include "wilt/core/error.hpp"
-#include "wilt/output/file.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/reproduce/claims.hpp"
 #include "wilt/reproduce/program.hpp"
 

@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "wilt/core/error.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/core/nearest.hpp"
-#include "wilt/output/file.hpp"
 #include "wilt/reproduce/figures.hpp"
 #include "wilt/reproduce/report.hpp"
 

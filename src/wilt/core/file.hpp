@@ -1,6 +1,7 @@
 // Files, whole or not at all.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -18,7 +19,11 @@ void write_file(const std::string& path, std::string_view bytes);
 /// The end of a file's name in lower case, with its dot: ".glb"; empty when it has none.
 std::string extension_of(const std::string& path);
 
-/// All bytes of the file `path`. Throws Error{input} with the path and the reason.
-std::string read_file(const std::string& path);
+/// What read_file takes at most: as much as a GLB can hold.
+inline constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 32;
+
+/// All bytes of the file `path`, at most `most`; a pipe is read to its end, a device too. Throws Error{input}
+/// with the path and the reason, and for what is larger.
+std::string read_file(const std::string& path, std::uint64_t most = kLargestFile);
 
 }  // namespace wilt

@@ -1,10 +1,11 @@
-#include "wilt/output/file.hpp"
+#include "wilt/core/file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <charconv>
@@ -163,22 +164,28 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
-std::string read_file(const std::string& path) {
+std::string read_file(const std::string& path, std::uint64_t most) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const auto refuse = [&](const std::string& reason) {
+    throw Error(ErrorCode::input, fmt::format("cannot read '{}': {}", path, reason));
+  };
   const auto fail_reading = [&](int reason) {
-    throw Error(ErrorCode::input, fmt::format("cannot read '{}': {}: check the path and its permissions",
-                                              path, std::strerror(reason)));
+    refuse(fmt::format("{}: check the path and its permissions", std::strerror(reason)));
   };
   if (descriptor < 0) fail_reading(errno);
   const Output input(path, descriptor);
   std::string bytes;
-  std::string block(std::size_t{1} << 20, '\0');
+  struct stat status;
+  if (::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode))
+    bytes.reserve(std::min<std::uint64_t>(most, static_cast<std::uint64_t>(status.st_size)));
+  std::string block(std::size_t{1} << 16, '\0');
   while (true) {
     const ssize_t count = ::read(descriptor, block.data(), block.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) fail_reading(errno);
     if (count == 0) return bytes;
     bytes.append(block, 0, static_cast<std::size_t>(count));
+    if (bytes.size() > most) refuse(fmt::format("it is larger than {} bytes, the most that is read", most));
   }
 }
 

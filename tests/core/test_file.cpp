@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "wilt/core/error.hpp"
-#include "wilt/output/file.hpp"
+#include "wilt/core/file.hpp"
 
 namespace wilt {
 namespace {
@@ -64,6 +64,9 @@ TEST_F(WriteFile, ReadsBackWhatWasWrittenAndLeavesNothingElse) {
   EXPECT_EQ(read_file(path("leaf.bin")), bytes);
   write_file(path("empty"), "");
   EXPECT_EQ(read_file(path("empty")), "");
+  EXPECT_EQ(read_file(path("leaf.bin"), bytes.size()), bytes);
+  EXPECT_THROW(read_file(path("leaf.bin"), bytes.size() - 1), Error);
+  EXPECT_THROW(read_file("/dev/zero", 1000), Error) << "a device has no end";
   EXPECT_EQ(entries(), 2);
 }
 
