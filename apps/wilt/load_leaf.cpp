@@ -18,6 +18,7 @@ namespace wilt::cli {
 namespace {
 
 constexpr int kDefaultVertices = 2000;
+constexpr std::uint64_t kLargestVeins = std::uint64_t{256} << 20;  // bytes
 
 bool looks_like_a_file(const std::string& leaf) {
   return std::filesystem::path(leaf).has_extension() || leaf.find('/') != std::string::npos;
@@ -88,7 +89,8 @@ Leaf load_leaf(const LeafRequest& request, const Monitor& monitor) {
                   "petiole");
     return make_leaf(request.leaf, request.vertices.value_or(kDefaultVertices), request.seed, monitor);
   }
-  if (!std::filesystem::exists(request.leaf)) {
+  std::error_code unknown;  // of a symbolic link to itself, say
+  if (!std::filesystem::exists(request.leaf, unknown)) {
     if (looks_like_a_file(request.leaf))
       throw Error(ErrorCode::input, fmt::format("there is no file '{}'", request.leaf));
     throw Error(ErrorCode::input,
@@ -102,7 +104,8 @@ void for_each_leaf(
     const LeafRequest& request,
     const std::function<void(const LeafRequest& leaf,
                              const std::function<std::string(const std::string&)>& name)>& run) {
-  const bool all = request.which == "all" && std::filesystem::is_regular_file(request.leaf);
+  std::error_code unknown;
+  const bool all = request.which == "all" && std::filesystem::is_regular_file(request.leaf, unknown);
   if (!all) return run(request, [](const std::string& path) { return path; });
   if (!request.petiole.empty() || !request.veins.empty())
     throw Error(ErrorCode::configuration,
@@ -132,7 +135,7 @@ Venation load_veins(const LeafRequest& request, const Leaf& leaf, const Secondar
                     const VenationOptions& options, const Monitor& monitor) {
   Venation found = find_venation(leaf, rule, options, monitor);
   if (request.veins.empty()) return found;
-  const std::string text = read_file(request.veins);
+  const std::string text = read_file(request.veins, kLargestVeins);
   try {
     return with_drawn_veins(leaf, found, parse_veins_json(text, request.veins, leaf, found), options);
   } catch (const Error& error) {

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "wilt/core/printable.hpp"
+
 namespace wilt::cli {
 namespace {
 
@@ -54,7 +56,7 @@ std::string Terminal::paint(std::string_view text, const char* code) const {
 void Terminal::say(std::string_view message) {
   if (quiet_) return;
   clear_bar();
-  fmt::print(stderr, "{}\n", message);
+  fmt::print(stderr, "{}\n", printable(message));
 }
 
 void Terminal::detail(std::string_view message) {
@@ -63,12 +65,12 @@ void Terminal::detail(std::string_view message) {
 
 void Terminal::warn(std::string_view message) {
   clear_bar();
-  fmt::print(stderr, "{} {}\n", paint("warning:", "33"), message);
+  fmt::print(stderr, "{} {}\n", paint("warning:", "33"), printable(message));
 }
 
 void Terminal::error(std::string_view message) {
   clear_bar();
-  fmt::print(stderr, "{} {}\n", paint("error:", "31"), message);
+  fmt::print(stderr, "{} {}\n", paint("error:", "31"), printable(message));
 }
 
 Monitor Terminal::monitor() {

@@ -134,8 +134,9 @@ Json describe(const std::string& path, const Monitor& monitor) {
 }
 
 void run(const std::string& path, const GlobalOptions& options) {
-  if (!std::filesystem::exists(path))
-    throw Error(ErrorCode::input, fmt::format("there is no file '{}'", path));
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown))
+    throw Error(ErrorCode::input, fmt::format("'{}' does not exist or is no file", path));
   Terminal terminal(options);
   const Json json = describe(path, terminal.monitor());
   if (options.json) {

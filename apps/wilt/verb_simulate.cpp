@@ -17,6 +17,8 @@
 namespace wilt::cli {
 namespace {
 
+constexpr std::uint64_t kLargestConfig = std::uint64_t{1} << 20;  // bytes
+
 struct Request {
   LeafRequest leaf;
   std::vector<std::string> outputs, assignments;
@@ -29,7 +31,7 @@ struct Request {
 
 // Defaults of the species, then the file, then the options, then --set: the later wins.
 Config resolve_config(Request& request, bool seed_given) {
-  const std::string file = request.config_file.empty() ? "" : read_file(request.config_file);
+  const std::string file = request.config_file.empty() ? "" : read_file(request.config_file, kLargestConfig);
   std::string preset = is_species(request.leaf.leaf) ? request.leaf.leaf : "generic";
   if (const std::string named = species_in_toml(file, request.config_file); !named.empty()) preset = named;
   for (const std::string& assignment : request.assignments) {

@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <random>
 #include <utility>
@@ -179,14 +180,19 @@ std::string read_file(const std::string& path, std::uint64_t most) {
   if (::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode))
     bytes.reserve(std::min<std::uint64_t>(most, static_cast<std::uint64_t>(status.st_size)));
   std::string block(std::size_t{1} << 16, '\0');
-  while (true) {
-    const ssize_t count = ::read(descriptor, block.data(), block.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail_reading(errno);
-    if (count == 0) return bytes;
-    bytes.append(block, 0, static_cast<std::size_t>(count));
-    if (bytes.size() > most) refuse(fmt::format("it is larger than {} bytes, the most that is read", most));
+  try {
+    while (true) {
+      const ssize_t count = ::read(descriptor, block.data(), block.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) fail_reading(errno);
+      if (count == 0) return bytes;
+      bytes.append(block, 0, static_cast<std::size_t>(count));
+      if (bytes.size() > most) refuse(fmt::format("it is larger than {} bytes, the most that is read", most));
+    }
+  } catch (const std::bad_alloc&) {
+    refuse(fmt::format("there is no memory for more than {} bytes of it", bytes.size()));
   }
+  return bytes;
 }
 
 }  // namespace wilt
