@@ -30,8 +30,7 @@ std::size_t length_of_character(std::string_view text, std::size_t at) {
 // Of one or two bytes: C0, DEL and C1.
 bool is_control(std::string_view character) {
   const unsigned first = byte_at(character, 0);
-  return (first < 0x20 && first != '\n' && first != '\t') || first == 0x7F ||
-         (first == 0xC2 && byte_at(character, 1) < 0xA0);
+  return (first < 0x20 && first != '\t') || first == 0x7F || (first == 0xC2 && byte_at(character, 1) < 0xA0);
 }
 
 }  // namespace
@@ -50,6 +49,11 @@ std::string printable(std::string_view text) {
     at += length == 0 ? 1 : length;
   }
   return clean;
+}
+
+std::string_view untagged(std::string_view what) {
+  const std::size_t end = what.find("] ");
+  return what.substr(0, 1) == "[" && end != what.npos ? what.substr(end + 2) : what;
 }
 
 }  // namespace wilt

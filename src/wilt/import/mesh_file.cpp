@@ -140,7 +140,8 @@ std::string reason_of(std::string words, const std::string& extension) {
   for (const char* unknown : {"No suitable reader", "Failed to determine STL", "Incorrect magic number"})
     if (words.find(unknown) != words.npos)
       return fmt::format("its content is not that of a {} file", extension);
-  return words;
+  constexpr std::size_t kMost = 200;  // some quote the rest of the file
+  return words.size() > kMost ? words.substr(0, kMost) + " ..." : words;
 }
 
 [[noreturn]] void refuse(const Assimp::Importer& importer, const std::string& extension) {
