@@ -141,7 +141,7 @@ std::string reason_of(std::string words, const std::string& extension) {
     if (words.find(unknown) != words.npos)
       return fmt::format("its content is not that of a {} file", extension);
   constexpr std::size_t kMost = 200;  // some quote the rest of the file
-  return words.size() > kMost ? words.substr(0, kMost) + " ..." : words;
+  return words.size() > kMost ? words.substr(0, kMost) + " [and more]" : words;
 }
 
 [[noreturn]] void refuse(const Assimp::Importer& importer, const std::string& extension) {
