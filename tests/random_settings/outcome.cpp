@@ -19,10 +19,6 @@ namespace {
 
 // Round-off of sums of a few hundred numbers, with room.
 constexpr double kRoundOff = 1e-9;
-// A residual above its tolerance is at the round-off of the positions; that it is no larger than this tells
-// the two apart.
-constexpr double kResidualAtRoundOff = 1e-4;
-
 struct Inspection {
   const Config& config;
   const Leaf& leaf;
@@ -46,7 +42,7 @@ void Inspection::steps() const {
     expect(step.dt > 0.0 && step.dt <= config.dt, at + fmt::format("a step of {}", step.dt));
     for (const double value : {step.residual, step.kinetic, step.elastic, step.bending, step.water})
       expect(std::isfinite(value) && value >= 0.0, at + fmt::format("a figure is {}", value));
-    expect(step.residual <= std::max(config.solver.tolerance, kResidualAtRoundOff),
+    expect(step.residual <= config.solver.tolerance * (1.0 + kRoundOff),
            at + fmt::format("a residual of {}", step.residual));
     outcome.residual = std::max(outcome.residual, step.residual);
     const double mass = step.water + result.steps.front().water * (1.0 / config.mass.water_fraction - 1.0);
