@@ -40,10 +40,13 @@ void Helpers::wait() {
 
 }  // namespace detail
 
+// Short loops are split too, whatever the grain: races show on small meshes.
 void parallel_for(int count, int grain, const std::function<void(int, int)>& body) {
   if (count <= 0) return;
-  const int parts = (count - 1) / std::max(1, grain) + 1;
-  const int threads = std::min(parts, detail::threads_allowed());
+  const int most = detail::threads_allowed();
+  const int size = std::max(1, std::min(grain, count / most));
+  const int parts = (count - 1) / size + 1;
+  const int threads = std::min(parts, most);
   if (threads <= 1 || in_loop) return body(0, count);
   std::atomic<int> next{0};  // hands out parts and nothing else: relaxed, so that it hides no race of theirs
   std::vector<std::exception_ptr> thrown(threads);
@@ -51,7 +54,7 @@ void parallel_for(int count, int grain, const std::function<void(int, int)>& bod
     in_loop = true;
     try {
       for (int part; (part = next.fetch_add(1, std::memory_order_relaxed)) < parts;)
-        body(part * grain, std::min(count, (part + 1) * grain));
+        body(part * size, std::min(count, (part + 1) * size));
     } catch (...) {
       thrown[thread] = std::current_exception();
     }
