@@ -146,7 +146,7 @@ std::vector<Setting> make_settings() {
     {"solver.max_newton", "", "Newton iterations before the step is halved",
      1, 1000, {}, WILT_FIELD(solver.max_newton)},
     {"solver.max_halvings", "", "halvings of a step before the run stops",
-     0, 20, {}, WILT_FIELD(solver.max_halvings)},
+     0, 12, {}, WILT_FIELD(solver.max_halvings)},
   };
 }
 // clang-format on
