@@ -12,6 +12,7 @@
 #include "wilt/output/clip.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/simulation/simulate.hpp"
+#include "wilt/simulation/watchdog.hpp"
 #include "wilt/water/dehydration.hpp"
 
 namespace wilt::random_settings {
@@ -117,6 +118,8 @@ void inspect(const Config& config, const Leaf& leaf, const SimulationResult& res
   inspection.steps();
   inspection.frames();
   inspection.water();
+  inspection.expect(!result.completed || outcome.strain <= kLargestStretch,
+                    fmt::format("an edge strained by {}", outcome.strain));
 }
 
 }  // namespace
