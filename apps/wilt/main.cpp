@@ -11,7 +11,7 @@
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/core/nearest.hpp"
-#include "wilt/output/version.hpp"
+#include "wilt/core/version.hpp"
 
 namespace wilt::cli {
 namespace {
