@@ -11,7 +11,7 @@ bool is_small(std::string_view bytes) {
                ? static_cast<std::uint8_t>(bytes[at]) << 8 | static_cast<std::uint8_t>(bytes[at + 1])
                : 0;
   };
-  const auto few = [](std::int64_t width, std::int64_t height) { return width * height <= 16384; };
+  const auto few = [](double width, double height) { return width * height <= 16384; };
   if (bytes.substr(0, 2) != "\xff\xd8")
     return few(std::int64_t(u16(16)) << 16 | u16(18), std::int64_t(u16(20)) << 16 | u16(22));
   for (std::size_t at = 2; (at = bytes.find('\xff', at)) != bytes.npos; ++at) {

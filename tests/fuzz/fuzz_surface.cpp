@@ -2,7 +2,7 @@
 //
 // Bytes: options (bits: 1 coordinates are raw float32 instead of whole numbers from -128 to 127, 2 with
 // texture coordinates, 4 a petiole is given, 8 remesh, when there are few faces), the number of vertices,
-// their coordinates; then a byte for every corner of a face, modulo the number of vertices and two more.
+// their coordinates; then a byte for every corner of a face, modulo the number of vertices.
 #include <bit>
 
 #include "fuzz/leaf_checks.hpp"
@@ -35,10 +35,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   ReadOptions options;
   if (flags & 4) options.petiole = Vec2(bytes.signed_byte(), bytes.signed_byte());
-  const int faces = std::min(kMostFaces, static_cast<int>(bytes.left() / 3));
+  const int faces = vertices == 0 ? 0 : std::min(kMostFaces, static_cast<int>(bytes.left() / 3));
   soup.faces.resize(faces, 3);
   for (int f = 0; f < faces; ++f)
-    for (int k = 0; k < 3; ++k) soup.faces(f, k) = bytes.byte() % (vertices + 2) - 1;
+    for (int k = 0; k < 3; ++k) soup.faces(f, k) = bytes.byte() % vertices;
   if ((flags & 8) && faces <= 8) options.vertices = 200;
   if (const auto leaf =
           fuzz::unless_refused([&] { return detail::leaf_from_mesh(soup, "leaf", {}, options, {}); }))
