@@ -24,7 +24,9 @@ double seconds_since(Clock::time_point start) {
 
 }  // namespace
 
-WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& terminal) {
+WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& terminal,
+                    const CheckpointOptions& checkpoint) {
+  Checkpoints checkpoints(checkpoint, terminal);
   const Monitor monitor = terminal.monitor();
   WitheredLeaf withered;
   withered.config = config;
@@ -42,7 +44,10 @@ WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& 
                            withered.venation.tips.size(), withered.venation.tips.size() == 1 ? "" : "s"));
 
   start = Clock::now();
-  withered.result = simulate(withered.leaf, withered.venation, withered.config, monitor);
+  Simulation simulation(withered.leaf, withered.venation, withered.config);
+  checkpoints.resume(simulation);
+  withered.result =
+      simulate(std::move(simulation), monitor, [&](const Simulation& now) { checkpoints.save(now); });
   withered.timings.simulation = seconds_since(start);
   return withered;
 }

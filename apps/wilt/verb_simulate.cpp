@@ -23,6 +23,7 @@ struct Request {
   std::string model, config_file, report, forces;
   std::optional<std::int64_t> iterations, frames;
   FileOptions files;
+  CheckpointOptions checkpoint;
   int threads = 0;
   bool print_config = false;
 };
@@ -74,7 +75,7 @@ void summarise(const WitheredLeaf& withered, Terminal& terminal) {
 
 void check_outputs(const Request& request, int frames) {
   std::vector<std::string> figures;
-  for (const std::string& path : {request.report, request.forces}) {
+  for (const std::string& path : {request.report, request.forces, request.checkpoint.file}) {
     if (!path.empty()) figures.push_back(path);
   }
   check_results(request.outputs, figures, frames);
@@ -114,12 +115,14 @@ void run(Request& request, bool seed_given, const GlobalOptions& options) {
   const ThreadLimit limit(request.threads);
   Terminal terminal(options);
   catch_interrupts();
-  WitheredLeaf withered = wither(request.leaf, config, terminal);
+  WitheredLeaf withered = wither(request.leaf, config, terminal, request.checkpoint);
   write_all(request, withered, terminal);
   summarise(withered, terminal);
   if (options.json) fmt::print("{}\n", report_of(withered));
   if (withered.result.completed) return;
-  const std::string message = withered.result.stop_reason + "; what was computed until then was written";
+  std::string message = withered.result.stop_reason + "; what was computed until then was written";
+  if (withered.result.interrupted && !request.checkpoint.file.empty())
+    message += "; the same command with --resume goes on";
   throw Error(withered.result.interrupted ? ErrorCode::interrupted : ErrorCode::simulation, message);
 }
 
@@ -140,6 +143,8 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
       "  wilt simulate grape -o dry.glb --set water.humidity=0.2 --set water.temperature_c=35\n"
       "  wilt simulate drawing.svg -o mine.glb --veins veins.json    veins edited by hand\n"
       "  wilt simulate ivy -o ivy.glb --model paper --forces forces.csv\n"
+      "  wilt simulate maple -o big.glb --vertices 200000 --checkpoint big.checkpoint --resume\n"
+      "                                                      goes on where it was killed\n"
       "  wilt simulate maple --print-config > run.toml    then edit it, and give it back:\n"
       "  wilt simulate maple -o maple.glb --config run.toml\n");
   add_leaf_options(*verb, request->leaf);
@@ -173,6 +178,14 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
                  "List the settings with unit, default and range, and stop");
   verb->add_option("--report", request->report, "Steps, metrics, timings as JSON")->type_name("FILE");
   verb->add_option("--forces", request->forces, "Forces by region and iteration as CSV")->type_name("FILE");
+  verb->add_option("--checkpoint", request->checkpoint.file,
+                   "Keep the state of the run there, to go on after a kill or Ctrl-C")
+      ->type_name("FILE");
+  verb->add_flag("--resume", request->checkpoint.resume,
+                 "Go on from --checkpoint; results are as if never left");
+  verb->add_option("--checkpoint-every", request->checkpoint.every, "Seconds between checkpoints (10)")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 86400.0));
   verb->add_option("--threads", request->threads, "Threads at most (all); results do not depend on it")
       ->type_name("N")
       ->check(CLI::Range(0, 1024));
@@ -183,6 +196,7 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
       for (std::string& path : one.outputs) path = name(path);
       one.report = name(one.report);
       one.forces = name(one.forces);
+      one.checkpoint.file = name(one.checkpoint.file);
       run(one, seed->count() > 0, options);
     });
   });
