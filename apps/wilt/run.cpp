@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "interrupts.hpp"
 #include "result_formats.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/output/glb_scene.hpp"
@@ -25,6 +26,7 @@ double seconds_since(Clock::time_point start) {
 }  // namespace
 
 WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& terminal) {
+  end_on_interrupt();  // nothing is worth keeping before the first frame
   const Monitor monitor = terminal.monitor();
   WitheredLeaf withered;
   withered.config = config;
@@ -42,6 +44,7 @@ WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& 
                            withered.venation.tips.size(), withered.venation.tips.size() == 1 ? "" : "s"));
 
   start = Clock::now();
+  ask_on_interrupt();
   withered.result = simulate(withered.leaf, withered.venation, withered.config, monitor);
   withered.timings.simulation = seconds_since(start);
   return withered;

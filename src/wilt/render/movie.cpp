@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include <boost/process.hpp>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <vector>
@@ -32,27 +35,38 @@ const std::map<std::string, std::vector<std::string>>& codecs() {
   return kCodecs;
 }
 
-/// A folder of its own that goes away with it.
-class TemporaryFolder {
+std::string temporary_folder() {
+  std::error_code failed;
+  const std::string folder = std::filesystem::temp_directory_path(failed).string();
+  if (failed)
+    throw Error(ErrorCode::output, "TMPDIR, the folder for temporary files, is not a folder; set it to one");
+  return folder;
+}
+
+/// A file without a name in the folder for temporary files: nobody else can find it, and it is gone when the
+/// program is, however that ends. ffmpeg inherits its descriptor.
+class UnnamedFile {
  public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "wilt-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
+  UnnamedFile() {
+    const std::string folder = temporary_folder();
+    std::string name = folder + "/wilt-XXXXXX";
+    descriptor_ = mkstemp(name.data());
+    if (descriptor_ < 0)
       throw Error(ErrorCode::output,
-                  fmt::format("cannot create a temporary folder in '{}'; set TMPDIR to a folder with space",
-                              std::filesystem::temp_directory_path().string()));
-    path_ = name;
+                  fmt::format("cannot write into the folder for temporary files, '{}': {}; set TMPDIR to a "
+                              "folder with space",
+                              folder, std::strerror(errno)));
+    ::unlink(name.c_str());
   }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
+  ~UnnamedFile() { ::close(descriptor_); }
+  UnnamedFile(const UnnamedFile&) = delete;
+  UnnamedFile& operator=(const UnnamedFile&) = delete;
+
+  /// A path under which this program and its children reach it.
+  std::string path() const { return fmt::format("/dev/fd/{}", descriptor_); }
 
  private:
-  std::filesystem::path path_;
+  int descriptor_ = -1;
 };
 
 }  // namespace
@@ -66,8 +80,6 @@ class MovieWriter::Encoder {
       throw Error(ErrorCode::output,
                   "a film needs the program ffmpeg, which is not there; install it (Debian: apt-get install "
                   "ffmpeg), or write a sheet.png");
-    file_ = (folder_.path() / ("film" + extension_of(path))).string();
-    errors_ = (folder_.path() / "errors").string();
     std::vector<std::string> arguments = {"-v",       "error",
                                           "-f",       "rawvideo",
                                           "-pix_fmt", "rgb24",
@@ -76,12 +88,12 @@ class MovieWriter::Encoder {
                                           "-i",       "-"};
     const auto& codec = codecs().at(extension_of(path));
     arguments.insert(arguments.end(), codec.begin(), codec.end());
-    arguments.insert(arguments.end(),
-                     {"-fflags", "+bitexact", "-flags:v", "+bitexact", "-threads", "2", file_});
+    arguments.insert(arguments.end(), {"-fflags", "+bitexact", "-flags:v", "+bitexact", "-threads", "2", "-f",
+                                       extension_of(path).substr(1), "-y", film_.path()});
     std::error_code failed;
-    child_ =
-        process::child(program, process::args(arguments),
-                       process::std_in<pictures_, process::std_err> boost::filesystem::path(errors_), failed);
+    child_ = process::child(
+        program, process::args(arguments),
+        process::std_in<pictures_, process::std_err> boost::filesystem::path(errors_.path()), group_, failed);
     if (failed) throw Error(ErrorCode::output, fmt::format("ffmpeg cannot be started: {}", failed.message()));
     previous_ = std::signal(SIGPIPE, SIG_IGN);  // a program that stopped is told by the stream
   }
@@ -107,23 +119,27 @@ class MovieWriter::Encoder {
     pictures_.pipe().close();
     child_.wait();
     if (child_.exit_code() != 0) fail();
-    write_file(path_, read_file(file_));
+    write_file(path_, read_file(film_.path()));
   }
 
  private:
   [[noreturn]] void fail() {
     pictures_.pipe().close();
     child_.wait();
-    const std::string said = read_file(errors_), reason = said.substr(0, said.find('\n'));
-    throw Error(ErrorCode::output, fmt::format("'{}': ffmpeg could not make the film{}{}", path_,
-                                               reason.empty() ? "" : ": ", reason));
+    const std::string said = read_file(errors_.path()), reason = said.substr(0, said.find('\n'));
+    throw Error(
+        ErrorCode::output,
+        fmt::format("cannot write '{}': ffmpeg could not make the film{}{}; it needs space in '{}' (set "
+                    "TMPDIR to choose another folder) and its own H.264 or VP9 encoder",
+                    path_, reason.empty() ? "" : ": ", reason, temporary_folder()));
   }
 
-  std::string path_, file_, errors_;
+  std::string path_;
   int width_, height_;
-  TemporaryFolder folder_;
+  UnnamedFile film_, errors_;
   process::opstream pictures_;
   process::child child_;
+  process::group group_;  // out of reach of the terminal's Ctrl-C
   void (*previous_)(int) = SIG_DFL;
 };
 
