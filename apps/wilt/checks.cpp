@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdlib>
 
 #include "wilt/core/nearest.hpp"
@@ -27,12 +26,12 @@ CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
   return {check, ""};
 }
 
-CLI::Validator any_number() {
-  const auto check = [](const std::string& text) -> std::string {
+CLI::Validator number(double least, double most) {
+  const auto check = [least, most](const std::string& text) -> std::string {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
-    if (!text.empty() && *end == '\0' && std::isfinite(value)) return "";
-    return fmt::format("takes a number, not '{}'", text);
+    if (!text.empty() && *end == '\0' && value >= least && value <= most) return "";
+    return fmt::format("takes a number from {} to {}, not '{}'", least, most, text);
   };
   return {check, ""};
 }

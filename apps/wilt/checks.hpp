@@ -14,8 +14,8 @@ CLI::Validator whole_number(std::int64_t least, std::int64_t most);
 /// The largest seed: a double holds it, and so does every language that reads JSON.
 inline constexpr std::int64_t kMostSeed = 9'000'000'000'000'000;
 
-/// A finite number.
-CLI::Validator any_number();
+/// A finite number, `least` to `most`.
+CLI::Validator number(double least, double most);
 
 /// One of these words.
 CLI::Validator one_of(const std::vector<std::string>& words);

@@ -72,19 +72,19 @@ void add_leaf_options(CLI::App& verb, LeafRequest& request) {
       ->check(number_or_all())
       ->type_name("N");
   verb.add_option("--mm-per-pixel", request.mm_per_pixel, "Scale of a photo (else 100 mm across)")
-      ->check(any_number())
+      ->check(number(1e-6, 1e6))
       ->type_name("MM");
   verb.add_option("--mask", request.mask, "A picture of the photo's shape, white where the leaf is")
       ->type_name("FILE");
   verb.add_option("--threshold", request.threshold,
                   "Colour difference at which a photo's leaf begins, 0 to 100 (found)")
-      ->check(any_number())
+      ->check(number(0.0, 100.0))
       ->type_name("X");
   verb.add_flag("--scan", request.scan,
                 "Take the vertices of a mesh as the points of a scan: clean and fit them");
   verb.add_option("--mm-per-unit", request.mm_per_unit,
                   "Unit of a scan (1 mm, or 1 m for a blade below 2 units)")
-      ->check(any_number())
+      ->check(number(1e-9, 1e9))
       ->type_name("MM");
 }
 

@@ -13,7 +13,7 @@
 #include "terminal.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
-#include "wilt/output/version.hpp"
+#include "wilt/core/version.hpp"
 
 namespace wilt::cli {
 namespace {

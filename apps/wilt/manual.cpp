@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "settings_list.hpp"
+#include "wilt/core/version.hpp"
 #include "wilt/leaf/species.hpp"
-#include "wilt/output/version.hpp"
 
 namespace wilt::cli {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 constexpr const char* kExitStatus = R"(.SH EXIT STATUS
 .TP
 .B 0
-done
+everything was done
 .TP
 .B 2
 a wrong command line or configuration: an unknown key, a value out of range

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "checkpoints.hpp"
 #include "load_leaf.hpp"
 #include "terminal.hpp"
 #include "wilt/core/image.hpp"
@@ -27,8 +28,10 @@ struct WitheredLeaf {
   Timings timings;
 };
 
-/// Loads the leaf, finds its veins and withers it. The leaf's notes go to the terminal.
-WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& terminal);
+/// Loads the leaf, finds its veins and withers it. The leaf's notes go to the terminal. Throws before any
+/// work where the checkpoint's options are wrong (checkpoints.hpp).
+WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& terminal,
+                    const CheckpointOptions& checkpoint = {});
 
 /// What the command line says about the files of a result.
 struct FileOptions {

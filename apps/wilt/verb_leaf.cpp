@@ -9,6 +9,7 @@
 
 #include "load_leaf.hpp"
 #include "plan.hpp"
+#include "result_formats.hpp"
 #include "run.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
@@ -63,12 +64,14 @@ void run(const Request& request, const GlobalOptions& options) {
                 fmt::format("cannot write '{}': a leaf is .glb or .obj", request.output));
   if (request.output.empty() && !options.json)
     throw Error(ErrorCode::configuration, "nothing would be written; add -o leaf.glb");
-  check_writable(request.output);
+  const std::vector<std::string> outputs(request.output.empty() ? 0 : 1, request.output);
+  check_results(outputs, {}, 1);
   Terminal terminal(options);
   if (request.dry_run) {
     const int vertices = planned_vertices(request.leaf, terminal.monitor());
     return print_plan(fmt::format("mesh {}: {} vertices", request.leaf.leaf, vertices),
-                      {{"leaf", request.leaf.leaf}, {"vertices", vertices}}, {request.output}, options);
+                      {{"leaf", request.leaf.leaf}, {"vertices", vertices}}, result_files(outputs, 1),
+                      options);
   }
   const Leaf leaf = load_leaf(request.leaf, terminal.monitor());
   const double angle = smallest_angle(leaf.mesh, leaf.positions) * 180.0 / std::numbers::pi;

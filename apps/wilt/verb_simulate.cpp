@@ -29,6 +29,7 @@ struct Request {
   std::string model, config_file, report, forces;
   std::optional<std::int64_t> iterations, frames;
   FileOptions files;
+  CheckpointOptions checkpoint;
   int threads = 0;
   bool print_config = false, dry_run = false;
 };
@@ -88,13 +89,14 @@ void summarise(const WitheredLeaf& withered, Terminal& terminal) {
 // The files that are not results.
 std::vector<std::string> figures(const Request& request) {
   std::vector<std::string> paths;
-  for (const std::string& path : {request.report, request.forces}) {
+  for (const std::string& path : {request.report, request.forces, request.checkpoint.file}) {
     if (!path.empty()) paths.push_back(path);
   }
   return paths;
 }
 
 void plan(const Request& request, const Config& config, const GlobalOptions& options, Terminal& terminal) {
+  const Checkpoints can_be_used(request.checkpoint, terminal);
   const int vertices = planned_vertices(request.leaf, terminal.monitor());
   const nlohmann::ordered_json facts = {{"leaf", request.leaf.leaf},
                                         {"species", config.species},
@@ -141,7 +143,7 @@ void run(Request& request, bool seed_given, const GlobalOptions& options) {
   const ThreadLimit limit(request.threads);
   Terminal terminal(options);
   if (request.dry_run) return plan(request, config, options, terminal);
-  WitheredLeaf withered = wither(request.leaf, config, terminal);
+  WitheredLeaf withered = wither(request.leaf, config, terminal, request.checkpoint);
   const std::optional<Error> unwritten = write_all(request, withered, terminal);
   summarise(withered, terminal);
   if (options.json) print_data(report_of(withered) + "\n");
@@ -151,8 +153,12 @@ void run(Request& request, bool seed_given, const GlobalOptions& options) {
     return;
   }
   if (unwritten) throw Error(unwritten->code(), fmt::format("{}; {}", result.stop_reason, unwritten->what()));
-  throw Error(result.interrupted ? ErrorCode::interrupted : ErrorCode::simulation,
-              result.stop_reason + "; what was computed until then was written");
+  std::string message = result.stop_reason + "; what was computed until then was written";
+  if (result.interrupted && !request.checkpoint.file.empty())
+    message += "; the same command with --resume goes on";
+  if (!result.interrupted)
+    message += fmt::format("; try a smaller time step (--set dt={}) or milder settings", config.dt / 2);
+  throw Error(result.interrupted ? ErrorCode::interrupted : ErrorCode::simulation, message);
 }
 
 }  // namespace
@@ -172,6 +178,8 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
       "  wilt simulate grape -o dry.glb --set water.humidity=0.2 --set water.temperature_c=35\n"
       "  wilt simulate drawing.svg -o mine.glb --veins veins.json    veins edited by hand\n"
       "  wilt simulate ivy -o ivy.glb --model paper --forces forces.csv\n"
+      "  wilt simulate maple -o big.glb --vertices 200000 --checkpoint big.checkpoint --resume\n"
+      "                                                      goes on where it was killed\n"
       "  wilt simulate maple --print-config > run.toml    then edit it, and give it back:\n"
       "  wilt simulate maple -o maple.glb --config run.toml\n");
   add_leaf_options(*verb, request->leaf);
@@ -213,6 +221,14 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
   add_dry_run(*verb, request->dry_run);
   verb->add_option("--report", request->report, "Steps, metrics, timings as JSON")->type_name("FILE");
   verb->add_option("--forces", request->forces, "Forces by region and iteration as CSV")->type_name("FILE");
+  verb->add_option("--checkpoint", request->checkpoint.file,
+                   "Keep the state of the run there, to go on after a kill or Ctrl-C")
+      ->type_name("FILE");
+  verb->add_flag("--resume", request->checkpoint.resume,
+                 "Go on from --checkpoint; results are as if never left");
+  verb->add_option("--checkpoint-every", request->checkpoint.every, "Seconds between checkpoints (10)")
+      ->type_name("S")
+      ->check(number(0.0, 86400.0));
   verb->add_option("--threads", request->threads, "Threads at most (all); results do not depend on it")
       ->type_name("N")
       ->check(whole_number(0, 1024));
@@ -223,6 +239,7 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
       for (std::string& path : one.outputs) path = name(path);
       one.report = name(one.report);
       one.forces = name(one.forces);
+      one.checkpoint.file = name(one.checkpoint.file);
       run(one, seed->count() > 0, options);
     });
   });

@@ -5,6 +5,7 @@
 
 #include "import/files.hpp"
 #include "import/scan_files.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/import/point_index.hpp"
 #include "wilt/import/scan_points.hpp"
 #include "wilt/mesh/geometry.hpp"
@@ -38,7 +39,7 @@ TEST_P(SharedScan, GivesALeafAmongItsPoints) {
   const Leaf leaf = read_leaf(file);
   const Points3 vertices = test::in_file(leaf);
   std::vector<std::string> notes;
-  const Points3 points = detail::read_points(file, notes);
+  const Points3 points = detail::parse_points(read_file(file.string()), notes);
   const detail::PointIndex index(points), surface(vertices);
   int near = 0, covered = 0, crowded = 0;
   for (int i = 0; i < vertices.rows(); ++i)

@@ -8,12 +8,12 @@
 #include "output/sample_leaf.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/core/file.hpp"
+#include "wilt/core/version.hpp"
 #include "wilt/mesh/geometry.hpp"
 #include "wilt/output/coordinates.hpp"
 #include "wilt/output/glb_container.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/output/tube.hpp"
-#include "wilt/output/version.hpp"
 
 namespace wilt {
 namespace {

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "output/sample_leaf.hpp"
+#include "wilt/core/version.hpp"
 #include "wilt/output/report.hpp"
-#include "wilt/output/version.hpp"
 
 namespace wilt {
 namespace {

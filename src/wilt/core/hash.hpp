@@ -1,7 +1,8 @@
-// Random numbers that depend on a place alone: no stream, no order.
+// Hashes: of bytes, and as random numbers that depend on a place alone (no stream, no order).
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace wilt {
 
@@ -16,6 +17,16 @@ inline std::uint64_t mix_hash(std::uint64_t hash, std::uint64_t value) {
 /// A uniform number in [0, 1) from a hash.
 inline double hash_uniform(std::uint64_t hash) {
   return double(hash >> 11) * 0x1.0p-53;
+}
+
+/// The hash of bytes: FNV-1a, 64 bits (Fowler, Noll and Vo). Not against forgery.
+inline std::uint64_t hash_bytes(std::string_view bytes) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char byte : bytes) {
+    hash ^= static_cast<unsigned char>(byte);
+    hash *= 1099511628211ULL;
+  }
+  return hash;
 }
 
 }  // namespace wilt

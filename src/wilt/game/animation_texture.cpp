@@ -10,6 +10,7 @@
 #include "wilt/core/error.hpp"
 #include "wilt/core/file.hpp"
 #include "wilt/core/parallel.hpp"
+#include "wilt/core/version.hpp"
 #include "wilt/game/deep_image.hpp"
 #include "wilt/game/levels_of_detail.hpp"
 #include "wilt/game/texel_layout.hpp"
@@ -17,7 +18,6 @@
 #include "wilt/output/coordinates.hpp"
 #include "wilt/output/glb_extras.hpp"
 #include "wilt/output/glb_scene.hpp"
-#include "wilt/output/version.hpp"
 
 namespace wilt {
 namespace {

@@ -1,10 +1,10 @@
 // An outline from a file, before it is a leaf. Inside the import room only.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wilt/import/read_leaf.hpp"
@@ -24,10 +24,11 @@ struct DrawnLeaf {
 
 /// {"outline": [[x, y], ...], "holes": [[[x, y], ...], ...], "petiole": [x, y], "mm_per_unit": 1}, y up;
 /// only "outline" must be there. Throws Error{input}, naming the place, for anything else.
-DrawnLeaf read_json_outline(const std::filesystem::path& file);
+DrawnLeaf parse_json_outline(std::string_view text);
 
-/// The `nth` largest leaf of a drawing, its stalk joined to it if that is a shape of its own.
-DrawnLeaf read_svg_outline(const std::filesystem::path& file, int nth);
+/// The `nth` largest leaf of a drawing (SVG), its stalk joined to it if that is a shape of its own. Nothing
+/// that the drawing refers to is opened, and its XML entities are not expanded. Throws Error{input}.
+DrawnLeaf parse_svg_outline(std::string_view text, int nth);
 
 /// Cuts off the stalk, finds the petiole, meshes, and places the leaf in its frame.
 Leaf leaf_from_outline(DrawnLeaf drawn, const std::string& name, const ReadOptions& options,

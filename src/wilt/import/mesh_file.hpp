@@ -3,16 +3,18 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
+#include <string_view>
 
+#include "wilt/core/monitor.hpp"
 #include "wilt/core/types.hpp"
 
 namespace wilt::detail {
 
 struct TriangleSoup {
-  Points3 positions;  ///< #S x 3, Z up
-  Points2 uv;         ///< #S x 2, origin top left; not a number where the file gives none
-  Faces faces;        ///< #F x 3
+  Points3 positions;            ///< #S x 3, Z up
+  Points2 uv;                   ///< #S x 2, origin top left; not a number where the file gives none
+  Faces faces;                  ///< #F x 3
+  bool stalk_left_out = false;  ///< whether there was a part named "stalk"
 };
 
 /// File coordinates (Y up) to ours (Z up) and back.
@@ -23,8 +25,15 @@ inline Vec3 to_file_axes(const Vec3& ours) {
   return {ours.x(), ours.z(), -ours.y()};
 }
 
-/// Reads .obj .ply .stl .glb .gltf; polygons are cut into triangles, node transforms applied, points and
-/// lines left out, and so is a part named "stalk" beside others. There may be no face. Throws Error{input}.
-TriangleSoup read_mesh_file(const std::filesystem::path& file, std::vector<std::string>& notes);
+/// A mesh file's bytes; `extension` (.obj .ply .stl .glb .gltf) says how to read them, and the buffers that
+/// a .gltf names are looked for in `folder` alone (mesh_folder.hpp). Polygons are cut into triangles, node
+/// transforms applied, points and lines left out, and so is a part named "stalk" beside others. There may be
+/// no face. Throws Error{input}. The library may crash on hostile bytes: callers use read_mesh.
+TriangleSoup parse_mesh(std::string_view bytes, const std::string& extension,
+                        const std::filesystem::path& folder);
+
+/// parse_mesh in a process of its own, with its limits (isolated.hpp).
+TriangleSoup read_mesh(std::string_view bytes, const std::string& extension,
+                       const std::filesystem::path& folder, const Monitor& monitor);
 
 }  // namespace wilt::detail

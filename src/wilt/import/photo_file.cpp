@@ -3,25 +3,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <opencv2/imgproc.hpp>
-#include <sstream>
 
 #include "wilt/core/error.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/core/image_codec.hpp"
 
 namespace wilt::detail {
 namespace {
 
 constexpr int kSmallestSide = 64;
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  if (!in) throw Error(ErrorCode::input, fmt::format("'{}' cannot be read", file.string()));
-  return bytes.str();
-}
 
 // Big- or little-endian numbers of a TIFF block; 0 beyond its end.
 class Tiff {
@@ -79,8 +70,7 @@ int exif_orientation(std::string_view jpeg) {
   return 1;
 }
 
-Photo read_photo(const std::filesystem::path& file) {
-  const std::string bytes = bytes_of(file);
+Photo parse_photo(std::string_view bytes) {
   Image image = decode_image(bytes);
   const std::vector<std::uint8_t> alpha = decode_alpha(bytes);
   Photo photo;
@@ -107,7 +97,7 @@ Photo read_photo(const std::filesystem::path& file) {
 cv::Mat1b read_mask(const std::filesystem::path& file, const Photo& photo) {
   Photo picture;
   try {
-    picture = read_photo(file);
+    picture = parse_photo(read_file(file.string(), kLargestPicture));
   } catch (const Error& error) {
     throw Error(ErrorCode::input, fmt::format("--mask '{}': {}", file.string(), error.what()));
   }

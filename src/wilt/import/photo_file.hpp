@@ -1,8 +1,10 @@
 // A photo file as pixels. Inside the import room only.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <opencv2/core.hpp>
+#include <string_view>
 
 namespace wilt::detail {
 
@@ -15,9 +17,12 @@ struct Photo {
 /// What is larger is scaled down: an outline is found to a fraction of a pixel.
 inline constexpr int kWorkingSide = 3000;
 
-/// Reads a .jpg or .png, turned upright by its EXIF orientation (JPEG). Throws Error{input} when it is
+/// The pixels of a JPEG or PNG, turned upright by its EXIF orientation (JPEG). Throws Error{input} when it is
 /// neither, damaged, or smaller than 64 pixels on a side.
-Photo read_photo(const std::filesystem::path& file);
+Photo parse_photo(std::string_view bytes);
+
+/// The largest file of a picture that is read, bytes.
+inline constexpr std::uint64_t kLargestPicture = std::uint64_t{1} << 30;
 
 /// A mask of the same leaf: white (128 and above, of any channel's mean) is the leaf. It is scaled to the
 /// photo; Throws Error{input} when its shape differs from the photo's by more than 1 %.

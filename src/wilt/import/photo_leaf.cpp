@@ -128,14 +128,15 @@ void settle_scale(const ReadOptions& options, DrawnLeaf& drawn) {
 
 }  // namespace
 
-int count_photo_leaves(const std::filesystem::path& file, const ReadOptions& options) {
-  const Photo photo = read_photo(file);
+int count_photo_leaves(std::string_view bytes, const ReadOptions& options) {
+  const Photo photo = parse_photo(bytes);
   return count_of(photo_objects(cover_of(photo, options).share));
 }
 
-Leaf read_photo_leaf(const std::filesystem::path& file, const ReadOptions& options, const Monitor& monitor) {
+Leaf leaf_from_photo(std::string_view bytes, const std::string& name, const ReadOptions& options,
+                     const Monitor& monitor) {
   monitor.report("photo", 0.0);
-  const Photo photo = read_photo(file);
+  const Photo photo = parse_photo(bytes);
   const Cover cover = cover_of(photo, options);
   monitor.report("photo", 0.4);
   DrawnLeaf drawn;
@@ -148,7 +149,7 @@ Leaf read_photo_leaf(const std::filesystem::path& file, const ReadOptions& optio
   drawn.photo = leaf_photo(photo, object);
   settle_scale(options, drawn);
   monitor.report("photo", 1.0);
-  return leaf_from_outline(std::move(drawn), file.stem().string(), options, monitor);
+  return leaf_from_outline(std::move(drawn), name, options, monitor);
 }
 
 }  // namespace wilt::detail

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "wilt/core/error.hpp"
+#include "wilt/core/file.hpp"
 #include "wilt/core/nearest.hpp"
 #include "wilt/import/drawn_leaf.hpp"
 #include "wilt/import/mesh_leaf.hpp"
+#include "wilt/import/photo_file.hpp"
 #include "wilt/import/photo_leaf.hpp"
 #include "wilt/import/scan_leaf.hpp"
 #include "wilt/import/scan_points.hpp"
@@ -70,36 +71,59 @@ void validate(const ReadOptions& options, const std::string& extension) {
 }
 
 // A .ply without faces is a scan too.
-Leaf read_mesh_or_scan(const std::filesystem::path& file, const std::string& name, const ReadOptions& options,
-                       const Monitor& monitor) {
+Leaf leaf_from_mesh_or_scan(const std::filesystem::path& file, std::string_view bytes,
+                            const std::string& name, const ReadOptions& options, const Monitor& monitor) {
+  const detail::TriangleSoup soup = detail::read_mesh(
+      bytes, extension_of(file.string()), file.has_parent_path() ? file.parent_path() : ".", monitor);
   std::vector<std::string> notes;
-  const detail::TriangleSoup soup = detail::read_mesh_file(file, notes);
+  if (soup.stalk_left_out) notes.push_back("the part named 'stalk' was left out; the blade alone is a leaf");
   if (!options.scan && soup.faces.rows() > 0)
     return detail::leaf_from_mesh(soup, name, std::move(notes), options, monitor);
   return detail::leaf_from_scan({soup.positions, true, std::move(notes)}, name, options, monitor);
 }
 
-Leaf read(const std::filesystem::path& file, const std::string& extension, const ReadOptions& options,
-          const Monitor& monitor) {
-  const std::string name = file.stem().string();
-  if (extension == ".svg")
-    return detail::leaf_from_outline(detail::read_svg_outline(file, options.nth), name, options, monitor);
-  if (extension == ".json")
-    return detail::leaf_from_outline(detail::read_json_outline(file), name, options, monitor);
-  if (is_photo(extension)) return detail::read_photo_leaf(file, options, monitor);
-  if (is_points_file(extension)) {
-    detail::Scan scan;
-    scan.points = detail::read_points(file, scan.notes);
-    return detail::leaf_from_scan(std::move(scan), name, options, monitor);
-  }
-  return read_mesh_or_scan(file, name, options, monitor);
+// The largest file of a kind that is read, bytes: what is parsed takes some 20 times as much memory.
+std::uint64_t largest(const std::string& extension) {
+  if (extension == ".json") return std::uint64_t{64} << 20;
+  if (extension == ".svg") return std::uint64_t{256} << 20;
+  return is_photo(extension) ? detail::kLargestPicture : kLargestFile;
 }
 
-std::string extension_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+// The bytes of a leaf file; pipes and devices have no end that could be trusted.
+std::string bytes_of(const std::filesystem::path& file) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(file, unknown))
+    throw Error(ErrorCode::input, fmt::format("'{}' does not exist or is no file", file.string()));
+  return read_file(file.string(), largest(extension_of(file.string())));
+}
+
+Leaf read(const std::filesystem::path& file, const ReadOptions& options, const Monitor& monitor) {
+  const std::string name = file.stem().string(), extension = extension_of(file.string());
+  const std::string bytes = bytes_of(file);
+  if (extension == ".svg")
+    return detail::leaf_from_outline(detail::parse_svg_outline(bytes, options.nth), name, options, monitor);
+  if (extension == ".json")
+    return detail::leaf_from_outline(detail::parse_json_outline(bytes), name, options, monitor);
+  if (is_photo(extension)) return detail::leaf_from_photo(bytes, name, options, monitor);
+  if (is_points_file(extension)) {
+    detail::Scan scan;
+    scan.points = detail::parse_points(bytes, scan.notes);
+    return detail::leaf_from_scan(std::move(scan), name, options, monitor);
+  }
+  return leaf_from_mesh_or_scan(file, bytes, name, options, monitor);
+}
+
+// Runs `read`; the message of what it refuses begins with the file's name.
+template <class Read>
+auto naming(const std::filesystem::path& file, const Read& read) {
+  const std::string name = file.filename().string();
+  try {
+    return read();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::input || std::string(error.what()).find(name + "'") != std::string::npos)
+      throw;
+    throw Error(ErrorCode::input, fmt::format("'{}': {}", name, error.what()));
+  }
 }
 
 }  // namespace
@@ -111,28 +135,21 @@ const std::vector<std::string>& leaf_file_extensions() {
 }
 
 Leaf read_leaf(const std::filesystem::path& file, const ReadOptions& options, const Monitor& monitor) {
-  const std::string extension = extension_of(file);
-  const std::string name = file.filename().string();
+  const std::string extension = extension_of(file.string());
   if (!one_of(extension, leaf_file_extensions()))
     throw Error(ErrorCode::input,
-                fmt::format("'{}': '{}' is no kind of leaf file{}; allowed are {}", name, extension,
-                            did_you_mean(extension, leaf_file_extensions()), joined(leaf_file_extensions())));
+                fmt::format("'{}': '{}' is no kind of leaf file{}; allowed are {}", file.filename().string(),
+                            extension, did_you_mean(extension, leaf_file_extensions()),
+                            joined(leaf_file_extensions())));
   validate(options, extension);
-  if (!std::filesystem::is_regular_file(file))
-    throw Error(ErrorCode::input, fmt::format("'{}' does not exist or is no file", file.string()));
-  Leaf leaf;
-  try {
-    leaf = read(file, extension, options, monitor);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::input || std::string(error.what()).rfind("'" + name + "'", 0) == 0) throw;
-    throw Error(ErrorCode::input, fmt::format("'{}': {}", name, error.what()));
-  }
+  Leaf leaf = naming(file, [&] { return read(file, options, monitor); });
   for (const std::string& note : leaf.notes) monitor.say(note);
   return leaf;
 }
 
 int count_leaves(const std::filesystem::path& file, const ReadOptions& options) {
-  return is_photo(extension_of(file)) ? detail::count_photo_leaves(file, options) : 1;
+  if (!is_photo(extension_of(file.string()))) return 1;
+  return naming(file, [&] { return detail::count_photo_leaves(bytes_of(file), options); });
 }
 
 }  // namespace wilt

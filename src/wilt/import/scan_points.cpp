@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <string_view>
 
@@ -123,11 +122,13 @@ class PointReader {
 
 }  // namespace
 
-Points3 read_points(const std::filesystem::path& file, std::vector<std::string>& notes) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw Error(ErrorCode::input, "it cannot be opened");
+Points3 parse_points(std::string_view text, std::vector<std::string>& notes) {
   PointReader reader;
-  for (std::string line; std::getline(stream, line);) reader.read(line);
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    reader.read(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
   if (reader.skipped() > 0)
     notes.push_back(fmt::format("{} points without numbers (nan) were left out", reader.skipped()));
   Points3 points(static_cast<Eigen::Index>(reader.points().size()), 3);

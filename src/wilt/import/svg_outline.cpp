@@ -7,8 +7,8 @@
 
 namespace wilt::detail {
 
-DrawnLeaf read_svg_outline(const std::filesystem::path& file, int nth) {
-  const svg::Drawing drawing = svg::read_drawing(file);
+DrawnLeaf parse_svg_outline(std::string_view text, int nth) {
+  const svg::Drawing drawing = svg::parse_drawing(text);
   ChosenLeaf chosen = choose_leaf(drawing, nth);
   const auto flip = [](Points2& ring) { ring.col(1) *= -1.0; };
   flip(chosen.outline.margin);

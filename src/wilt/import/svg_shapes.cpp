@@ -192,17 +192,16 @@ class Walker {
 
 }  // namespace
 
-Drawing read_drawing(const std::filesystem::path& file) {
-  const std::string name = file.filename().string();
+Drawing parse_drawing(std::string_view text) {
   pugi::xml_document document;
-  const pugi::xml_parse_result parsed = document.load_file(file.c_str(), pugi::parse_default);
+  const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size(), pugi::parse_default);
   if (!parsed)
-    throw Error(ErrorCode::input, fmt::format("'{}' cannot be read as SVG: {} at byte {}", name,
-                                              parsed.description(), parsed.offset));
+    throw Error(ErrorCode::input,
+                fmt::format("it cannot be read as SVG: {} at byte {}", parsed.description(), parsed.offset));
   const pugi::xml_node root = document.document_element();
   if (local_name(root) != "svg")
     throw Error(ErrorCode::input,
-                fmt::format("'{}' is no SVG: its root element is <{}>, not <svg>", name, root.name()));
+                fmt::format("it is no SVG: its root element is <{}>, not <svg>", root.name()));
   Walker walker(root);
   Drawing drawing;
   if (const auto scale = walker.physical_scale()) {

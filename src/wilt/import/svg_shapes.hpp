@@ -1,7 +1,7 @@
 // The filled shapes of a drawing. Inside the import room only.
 #pragma once
 
-#include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "wilt/import/svg_values.hpp"
@@ -24,7 +24,7 @@ struct Drawing {
 
 /// Paths, polygons, rectangles, circles and ellipses with a fill, transforms applied, curves flattened to
 /// 1e-4 of the drawing's size. Fills come from attributes, style, style sheets (by element, class and id)
-/// and groups. Throws Error{input}, naming the file, when it is no SVG.
-Drawing read_drawing(const std::filesystem::path& file);
+/// and groups. Throws Error{input} when it is no SVG.
+Drawing parse_drawing(std::string_view text);
 
 }  // namespace wilt::svg

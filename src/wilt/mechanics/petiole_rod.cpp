@@ -228,6 +228,19 @@ RodEquilibrium PetioleRod::solve(const RodLoads& loads, const Eigen::VectorXd& s
   return result;
 }
 
+Eigen::MatrixXd PetioleRod::rotations() const {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(rotations_.size()), 9);
+  for (Eigen::Index j = 0; j < rows.rows(); ++j)
+    rows.row(j) = Eigen::Map<const Eigen::RowVectorXd>(rotations_[static_cast<std::size_t>(j)].data(), 9);
+  return rows;
+}
+
+void PetioleRod::set_rotations(const Eigen::MatrixXd& rotations) {
+  detail::require_count("rotations", rotations.rows(), static_cast<Eigen::Index>(rotations_.size()));
+  for (Eigen::Index j = 0; j < rotations.rows(); ++j)
+    rotations_[static_cast<std::size_t>(j)] = Eigen::RowVectorXd(rotations.row(j)).reshaped(3, 3);
+}
+
 Eigen::VectorXd round_bending_stiffness(const Eigen::VectorXd& radii, double youngs_modulus) {
   Eigen::VectorXd stiffness(radii.size() - 1);
   for (int s = 0; s < stiffness.size(); ++s)

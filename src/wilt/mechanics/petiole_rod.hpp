@@ -51,6 +51,11 @@ class PetioleRod {
   /// the last one. Throws Error{configuration}, naming the bad value.
   RodEquilibrium solve(const RodLoads& loads, const Eigen::VectorXd& stiffness);
 
+  /// Of every segment and of the blade end, relative to rest: #K x 9, column by column. The last equilibrium,
+  /// from which the next is sought.
+  Eigen::MatrixXd rotations() const;
+  void set_rotations(const Eigen::MatrixXd& rotations);  ///< as rotations() gave them
+
  private:
   Points3 centreline_;
   Eigen::VectorXd masses_;

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "wilt/core/version.hpp"
 #include "wilt/output/coordinates.hpp"
 #include "wilt/output/vein_lines.hpp"
-#include "wilt/output/version.hpp"
 
 namespace wilt {
 namespace {

@@ -12,9 +12,9 @@
 
 #include "wilt/core/image_codec.hpp"
 #include "wilt/core/parallel.hpp"
+#include "wilt/core/version.hpp"
 #include "wilt/output/glb_builder.hpp"
 #include "wilt/output/glb_container.hpp"
-#include "wilt/output/version.hpp"
 
 namespace wilt {
 namespace {

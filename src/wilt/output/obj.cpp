@@ -7,10 +7,10 @@
 #include "wilt/core/check.hpp"
 #include "wilt/core/file.hpp"
 #include "wilt/core/srgb.hpp"
+#include "wilt/core/version.hpp"
 #include "wilt/output/beside.hpp"
 #include "wilt/output/coordinates.hpp"
 #include "wilt/output/moving.hpp"
-#include "wilt/output/version.hpp"
 
 namespace wilt {
 namespace {

@@ -4,10 +4,10 @@
 
 #include "wilt/core/file.hpp"
 #include "wilt/core/srgb.hpp"
+#include "wilt/core/version.hpp"
 #include "wilt/output/byte_order.hpp"
 #include "wilt/output/coordinates.hpp"
 #include "wilt/output/moving.hpp"
-#include "wilt/output/version.hpp"
 
 namespace wilt {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "wilt/core/check.hpp"
-#include "wilt/output/version.hpp"
+#include "wilt/core/version.hpp"
 
 namespace wilt {
 namespace {

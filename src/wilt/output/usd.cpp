@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "wilt/core/file.hpp"
+#include "wilt/core/version.hpp"
 #include "wilt/mesh/surface_mesh.hpp"
 #include "wilt/output/beside.hpp"
 #include "wilt/output/coordinates.hpp"
 #include "wilt/output/moving.hpp"
-#include "wilt/output/version.hpp"
 
 namespace wilt {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <iterator>
 
+#include "wilt/core/version.hpp"
 #include "wilt/output/coordinates.hpp"
 #include "wilt/output/vein_lines.hpp"
 #include "wilt/output/veins_files.hpp"
-#include "wilt/output/version.hpp"
 
 namespace wilt {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <iterator>
 
+#include "wilt/core/version.hpp"
 #include "wilt/output/markup.hpp"
 #include "wilt/output/vein_lines.hpp"
 #include "wilt/output/veins_files.hpp"
-#include "wilt/output/version.hpp"
 
 namespace wilt {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "wilt/core/version.hpp"
 #include "wilt/output/markup.hpp"
-#include "wilt/output/version.hpp"
 #include "wilt/reproduce/pictures.hpp"
 #include "wilt/reproduce/report_style.hpp"
 

@@ -158,6 +158,12 @@ void CellModel::advance(double dt, const Points3& x) {
   external_force_->set_values(external_.on_vertices());
 }
 
+void CellModel::exchange_state(StateArchive& archive) {
+  water_.exchange_state(archive);
+  external_.exchange_state(archive);
+  droop_.exchange_state(archive);
+}
+
 void CellModel::update_swelling() {
   const Eigen::VectorXd dp = water_.pressure_drop();
   const Eigen::VectorXd weighted = swelling_weight_.cwiseProduct(dp);

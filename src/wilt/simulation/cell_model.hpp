@@ -21,6 +21,7 @@ class CellModel : public DeformationModel {
 
   void advance(double dt, const Points3& x) override;
   System& system() override { return system_; }
+  void exchange_state(StateArchive& archive) override;
   ForceBreakdown forces(const Points3& x, const Points3& v) const override;
   const Eigen::VectorXd& water() const override { return water_.water(); }
   const Eigen::VectorXd& dry_mass() const override { return water_.dry_mass(); }

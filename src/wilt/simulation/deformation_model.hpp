@@ -10,6 +10,7 @@
 #include "wilt/leaf/leaf.hpp"
 #include "wilt/mechanics/system.hpp"
 #include "wilt/simulation/config.hpp"
+#include "wilt/simulation/state_archive.hpp"
 #include "wilt/venation/venation.hpp"
 
 namespace wilt {
@@ -30,6 +31,10 @@ class DeformationModel {
   virtual void advance(double dt, const Points3& x) = 0;
 
   virtual System& system() = 0;
+
+  /// Saves or restores what `advance` changes and depends on; the system's terms follow from it with the next
+  /// `advance`.
+  virtual void exchange_state(StateArchive& archive) = 0;
 
   /// What the model does otherwise than its name says, on this leaf; empty: nothing.
   virtual std::string note() const { return {}; }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "wilt/core/types.hpp"
+#include "wilt/simulation/state_archive.hpp"
 
 namespace wilt {
 
@@ -22,6 +23,7 @@ class ExternalForce {
   ExternalForce(const Points3& initial, const Eigen::MatrixXd& tip_distance, double range, double growth);
 
   void advance(double dt) { tip_forces_ += dt * rate_; }
+  void exchange_state(StateArchive& archive) { archive.matrix("external.tip_forces", tip_forces_); }
   const Points3& tip_forces() const { return tip_forces_; }     ///< fout_r now, #tips x 3
   Points3 on_vertices() const { return reach_ * tip_forces_; }  ///< Fo_i, #V x 3
 

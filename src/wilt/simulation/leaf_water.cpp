@@ -47,6 +47,11 @@ void LeafWater::advance(double dt) {
   }
 }
 
+void LeafWater::exchange_state(StateArchive& archive) {
+  archive.matrix("water.water", water_);
+  archive.matrix("water.pressure", pressure_);
+}
+
 Eigen::VectorXd LeafWater::dryness() const {
   return ((first_water_ - water_).cwiseQuotient(dryness_scale_ * first_water_)).cwiseMax(0.0).cwiseMin(1.0);
 }

@@ -5,6 +5,7 @@
 
 #include "wilt/core/types.hpp"
 #include "wilt/simulation/config.hpp"
+#include "wilt/simulation/state_archive.hpp"
 #include "wilt/water/permeation.hpp"
 #include "wilt/water/pressure.hpp"
 
@@ -22,6 +23,7 @@ class LeafWater {
             const Edges& edges, const Eigen::VectorXd& rest_lengths);
 
   void advance(double dt);
+  void exchange_state(StateArchive& archive);
 
   bool printed_permeation() const { return printed_permeation_; }
 

@@ -70,6 +70,11 @@ void PaperModel::advance(double dt, const Points3& x) {
   external_force_->set_values(external_.on_vertices());
 }
 
+void PaperModel::exchange_state(StateArchive& archive) {
+  water_.exchange_state(archive);
+  external_.exchange_state(archive);
+}
+
 ForceBreakdown PaperModel::forces(const Points3& x, const Points3& v) const {
   std::vector<Points3> f = forces_of(system_, {"elastic", "damping", "swelling", "external"}, x, v);
   return {std::move(f[0]), std::move(f[1]), std::move(f[2]), std::move(f[3])};

@@ -17,6 +17,7 @@ class PaperModel : public DeformationModel {
 
   void advance(double dt, const Points3& x) override;
   System& system() override { return system_; }
+  void exchange_state(StateArchive& archive) override;
   std::string note() const override;
   ForceBreakdown forces(const Points3& x, const Points3& v) const override;
   const Eigen::VectorXd& water() const override { return water_.water(); }

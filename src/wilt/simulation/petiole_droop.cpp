@@ -87,6 +87,14 @@ void PetioleDroop::advance(const Eigen::VectorXd& mass, double turgor, const Poi
   centreline_ = balance.centreline;
 }
 
+void PetioleDroop::exchange_state(StateArchive& archive) {
+  archive.matrix("petiole.centreline", centreline_);
+  archive.matrix("petiole.rotation", rotation_);
+  Eigen::MatrixXd rotations = rod_.rotations();
+  archive.matrix("petiole.segment_rotations", rotations);
+  rod_.set_rotations(rotations);
+}
+
 DeformationModel::Hanging PetioleDroop::hanging() const {
   DeformationModel::Hanging hanging;
   hanging.rotation = rotation_;

@@ -21,6 +21,8 @@ class PetioleDroop {
   /// `mass` #V; `turgor` 1 fresh to 0 dry; `x` #V x 3 in the petiole's frame.
   void advance(const Eigen::VectorXd& mass, double turgor, const Points3& x);
 
+  void exchange_state(StateArchive& archive);
+
   Vec3 gravity() const { return rotation_.transpose() * gravity_; }  ///< in the petiole's frame
   DeformationModel::Hanging hanging() const;
 

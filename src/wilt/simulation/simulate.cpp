@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
+#include <utility>
 
+#include "wilt/core/check.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/core/hash.hpp"
+#include "wilt/core/version.hpp"
 #include "wilt/mechanics/implicit_midpoint.hpp"
 #include "wilt/simulation/deformation_model.hpp"
 #include "wilt/simulation/metrics.hpp"
@@ -13,17 +16,6 @@
 
 namespace wilt {
 namespace {
-
-// FNV-1a over the bytes of the positions.
-std::string hash_of(const Points3& positions) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  const auto* bytes = reinterpret_cast<const unsigned char*>(positions.data());
-  for (std::size_t i = 0; i < sizeof(double) * static_cast<std::size_t>(positions.size()); ++i) {
-    hash ^= bytes[i];
-    hash *= 1099511628211ULL;
-  }
-  return fmt::format("{:016x}", hash);
-}
 
 // The iterations at which frames are taken: the first, the last, evenly between.
 std::vector<int> frame_iterations(const Config& config) {
@@ -44,36 +36,88 @@ MidpointOptions midpoint_options(const Config& config) {
   return options;
 }
 
-// One run: the model, the state of motion and what is recorded of them.
-class Run {
+std::vector<VertexId> tip_vertices(const Venation& venation) {
+  std::vector<VertexId> tips;
+  for (const Tip& tip : venation.tips) tips.push_back(tip.vertex);
+  return tips;
+}
+
+}  // namespace
+
+// The model, the state of motion and what is recorded of them.
+class Simulation::Run {
  public:
   Run(const Leaf& leaf, const Venation& venation, const Config& config)
       : leaf_(leaf),
+        venation_(venation),
+        config_(config),
         scale_(kWorkingLength / leaf_length(leaf)),
         rest_(scale_ * leaf.positions),
-        free_(config.pin == "free"),
         model_(make_model({leaf, venation, config, scale_, rest_})),
         regions_(leaf_regions(leaf, venation)),
         metrics_(leaf.mesh, rest_, leaf.petiole, tip_vertices(venation)),
         ring_(leaf.mesh.one_ring(leaf.petiole)),
         integrator_(model_->system(), midpoint_options(config)),
-        dt_(config.dt) {
+        frames_(frame_iterations(config)) {
     ring_.push_back(leaf.petiole);
     state_.positions = rest_;
-    state_.velocities = Points3::Zero(rest_.rows(), 3);
+    state_.complete(static_cast<int>(rest_.rows()));
+    result_.note = model_->note();
+    record();
   }
 
-  std::string note() const { return model_->note(); }
+  int iteration() const { return iteration_; }
+  int last_iteration() const { return static_cast<int>(config_.iterations); }
+  bool ended() const { return !result_.completed || iteration_ >= last_iteration(); }
+  const SimulationResult& result() const { return result_; }
 
-  /// Returns false, with the reason in the result, when the step could not be taken.
-  bool step(int iteration, SimulationResult& result) {
+  void step() {
+    const int iteration = iteration_ + 1;
     try {
-      model_->advance(dt_, state_.positions);
+      model_->advance(config_.dt, state_.positions);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::simulation) throw;
-      return stop(iteration, error.what(), result);
+      return stop(iteration, error.what());
     }
-    const StepReport report = integrator_.step(state_, dt_);
+    const StepReport report = integrator_.step(state_, config_.dt);
+    result_.steps.push_back(row_of(report, iteration));
+    if (!report.converged) return stop(iteration, report.reason);
+    iteration_ = iteration;
+    record();
+  }
+
+  Checkpoint checkpoint() {
+    WILT_CHECK(result_.completed, iteration_);
+    Checkpoint checkpoint{version(), to_json(config_), run_fingerprint(leaf_, venation_), iteration_, {}};
+    StateArchive archive = StateArchive::saving(checkpoint.arrays);
+    exchange(archive);
+    return checkpoint;
+  }
+
+  void restore(const Checkpoint& checkpoint) {
+    require_same_run(checkpoint, to_json(config_), run_fingerprint(leaf_, venation_));
+    StateArchive archive = StateArchive::restoring(checkpoint.arrays);
+    exchange(archive);
+    iteration_ = checkpoint.iteration;
+    const auto recorded = std::upper_bound(frames_.begin(), frames_.end(), iteration_) - frames_.begin();
+    if (iteration_ < 0 || iteration_ > last_iteration() ||
+        result_.steps.size() != static_cast<std::size_t>(iteration_) ||
+        result_.frames.size() != static_cast<std::size_t>(recorded))
+      throw Error(ErrorCode::input, fmt::format("it holds {} steps and {} frames at iteration {}",
+                                                result_.steps.size(), result_.frames.size(), iteration_));
+  }
+
+  SimulationResult finish() {
+    if (result_.frames.back().iteration != iteration_) record_frame();
+    const Points3& last = result_.frames.back().positions;
+    const std::string_view bytes(reinterpret_cast<const char*>(last.data()),
+                                 sizeof(double) * static_cast<std::size_t>(last.size()));
+    result_.positions_hash = fmt::format("{:016x}", hash_bytes(bytes));
+    return std::move(result_);
+  }
+
+ private:
+  StepRow row_of(const StepReport& report, int iteration) const {
     const System& system = model_->system();
     StepRow row{iteration,
                 report.dt,
@@ -87,94 +131,135 @@ class Run {
       if (name == "bending") row.bending = energy;
     }
     row.water = model_->water().sum();
-    result.steps.push_back(row);
-    return report.converged || stop(iteration, report.reason, result);
+    return row;
   }
 
-  void record_forces(int iteration, SimulationResult& result) const {
-    const auto rows = force_rows(regions_, *model_, state_.positions, state_.velocities, iteration);
-    result.forces.insert(result.forces.end(), rows.begin(), rows.end());
+  // What is reported of every iteration, and a frame where one is due.
+  void record() {
+    const auto rows = force_rows(regions_, *model_, state_.positions, state_.velocities, iteration_);
+    result_.forces.insert(result_.forces.end(), rows.begin(), rows.end());
+    if (std::binary_search(frames_.begin(), frames_.end(), iteration_)) record_frame();
   }
 
-  void record_frame(int iteration, SimulationResult& result) const {
+  void record_frame() {
     const Points3 held = in_petiole_frame();
     const DeformationModel::Hanging hanging = model_->hanging();
     Frame frame;
-    frame.iteration = iteration;
+    frame.iteration = iteration_;
     frame.positions =
         ((held * hanging.rotation.transpose()).rowwise() + hanging.translation.transpose()) / scale_;
     frame.stalk = hanging.stalk / scale_;
     frame.water_fraction = model_->water().cwiseQuotient(model_->water() + model_->dry_mass());
     frame.dryness = model_->dryness();
-    result.frames.push_back(std::move(frame));
-    result.metrics.push_back(metrics_.measure(held, iteration));
+    result_.frames.push_back(std::move(frame));
+    result_.metrics.push_back(metrics_.measure(held, iteration_));
   }
 
- private:
-  static bool stop(int iteration, const std::string& reason, SimulationResult& result) {
-    result.completed = false;
-    result.stop_reason = fmt::format("iteration {}: {}", iteration, reason);
-    return false;
+  void stop(int iteration, const std::string& reason) {
+    result_.completed = false;
+    result_.stop_reason = fmt::format("iteration {}: {}", iteration, reason);
   }
 
-  static std::vector<VertexId> tip_vertices(const Venation& venation) {
-    std::vector<VertexId> tips;
-    for (const Tip& tip : venation.tips) tips.push_back(tip.vertex);
-    return tips;
+  // All that changes in a run and that the next iteration, or the result, depends on.
+  void exchange(StateArchive& archive) {
+    archive.matrix("motion.positions", state_.positions);
+    archive.matrix("motion.velocities", state_.velocities);
+    archive.matrix("motion.accelerations", state_.accelerations);
+    archive.matrix("motion.jerks", state_.jerks);
+    model_->exchange_state(archive);
+    exchange_result(archive, result_);
   }
 
   // A free leaf's rigid motion is taken out: its petiole's one-ring is laid back on its rest place.
   Points3 in_petiole_frame() const {
-    if (!free_) return state_.positions;
+    if (config_.pin != "free") return state_.positions;
     const Eigen::Matrix3d turn = best_rotation(rest_, state_.positions, ring_);
     const auto origin = state_.positions.row(leaf_.petiole);
     return ((state_.positions.rowwise() - origin) * turn).rowwise() + rest_.row(leaf_.petiole);
   }
 
   const Leaf& leaf_;
+  const Venation& venation_;
+  Config config_;
   double scale_;  // working units per metre
   Points3 rest_;
-  bool free_;
   std::unique_ptr<DeformationModel> model_;
   VertexData<Region> regions_;
   LeafMetrics metrics_;
   std::vector<VertexId> ring_;
   ImplicitMidpoint integrator_;
-  double dt_;
+  std::vector<int> frames_;  // the iterations at which frames are taken, ascending
   MotionState state_;
+  int iteration_ = 0;
+  SimulationResult result_;
 };
 
-}  // namespace
+Simulation::Simulation(const Leaf& leaf, const Venation& venation, const Config& config)
+    : run_(std::make_unique<Run>(leaf, venation, config)) {}
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+int Simulation::iteration() const {
+  return run_->iteration();
+}
+
+int Simulation::last_iteration() const {
+  return run_->last_iteration();
+}
+
+bool Simulation::ended() const {
+  return run_->ended();
+}
+
+void Simulation::step() {
+  if (!ended()) run_->step();
+}
+
+const SimulationResult& Simulation::result() const {
+  return run_->result();
+}
+
+Checkpoint Simulation::checkpoint() const {
+  return run_->checkpoint();
+}
+
+void Simulation::restore(const Checkpoint& checkpoint) {
+  run_->restore(checkpoint);
+}
+
+SimulationResult Simulation::finish() && {
+  return run_->finish();
+}
+
+SimulationResult simulate(Simulation simulation, const Monitor& monitor,
+                          const std::function<void(const Simulation&)>& after) {
+  const int last = simulation.last_iteration();
+  if (!simulation.result().note.empty()) monitor.say(simulation.result().note);
+  bool interrupted = false;
+  while (!simulation.ended()) {
+    monitor.report("withering", static_cast<double>(simulation.iteration()) / last);
+    interrupted = monitor.stop_requested();
+    if (interrupted) {
+      if (after) after(simulation);
+      break;
+    }
+    simulation.step();
+    if (after && simulation.result().completed) after(simulation);
+  }
+  monitor.report("withering", 1.0);
+  const int done = simulation.iteration();
+  SimulationResult result = std::move(simulation).finish();
+  if (interrupted) {
+    result.completed = false;
+    result.interrupted = true;
+    result.stop_reason = fmt::format("interrupted after iteration {} of {}", done, last);
+  }
+  return result;
+}
 
 SimulationResult simulate(const Leaf& leaf, const Venation& venation, const Config& config,
                           const Monitor& monitor) {
-  SimulationResult result;
-  Run run(leaf, venation, config);
-  result.note = run.note();
-  if (!result.note.empty()) monitor.say(result.note);
-  const std::vector<int> frames = frame_iterations(config);
-  std::size_t next_frame = 0;
-  const int last = static_cast<int>(config.iterations);
-  int done = 0;  // iterations behind us
-  for (int iteration = 0; iteration <= last; ++iteration) {
-    if (iteration > 0 && !run.step(iteration, result)) break;
-    done = iteration;
-    run.record_forces(iteration, result);
-    if (next_frame < frames.size() && frames[next_frame] == iteration) {
-      run.record_frame(iteration, result);
-      ++next_frame;
-    }
-    monitor.report("withering", last == 0 ? 1.0 : static_cast<double>(iteration) / last);
-    if (monitor.stop_requested() && iteration < last) {
-      result.completed = false;
-      result.interrupted = true;
-      result.stop_reason = fmt::format("interrupted after iteration {} of {}", iteration, last);
-      break;
-    }
-  }
-  if (result.frames.back().iteration != done) run.record_frame(done, result);
-  result.positions_hash = hash_of(result.frames.back().positions);
-  return result;
+  return simulate(Simulation(leaf, venation, config), monitor);
 }
 
 }  // namespace wilt

@@ -1,7 +1,11 @@
 // A leaf withers: model, stepper, frames and metrics together.
 #pragma once
 
+#include <functional>
+#include <memory>
+
 #include "wilt/core/monitor.hpp"
+#include "wilt/simulation/checkpoint.hpp"
 #include "wilt/simulation/config.hpp"
 #include "wilt/simulation/result.hpp"
 
@@ -10,9 +14,47 @@ namespace wilt {
 /// S: the length of a leaf in working units, petiole to the farthest vertex.
 inline constexpr double kWorkingLength = 8.0;
 
-/// Runs `config.iterations` steps. A step that does not converge is halved; when that fails too, or the state
-/// is no longer finite, the run stops, keeps what was computed and says why (SimulationResult::stop_reason).
-/// Cancellation by the monitor keeps what was computed as well. Deterministic on any number of threads.
+/// A run, step by step. Deterministic on any number of threads.
+class Simulation {
+ public:
+  /// At the leaf at rest, iteration 0. The leaf and the veins must outlive it. Throws Error{configuration}.
+  Simulation(const Leaf& leaf, const Venation& venation, const Config& config);
+  Simulation(Simulation&&) noexcept;
+  ~Simulation();
+
+  int iteration() const;       ///< the last one done
+  int last_iteration() const;  ///< `config.iterations`
+  /// All iterations are done, or the run has stopped: SimulationResult::stop_reason.
+  bool ended() const;
+
+  /// One iteration. A step that does not converge is halved; when that fails too, or the state is no longer
+  /// finite, the run stops, keeps what was computed and says why. Nothing happens once it has ended.
+  void step();
+
+  /// What has been recorded until now.
+  const SimulationResult& result() const;
+
+  /// What the run must remember to go on from here. Not of one that has stopped.
+  Checkpoint checkpoint() const;
+  /// Goes on from there: every number of the result will be as if the run had never been left. Throws
+  /// Error{input} when the checkpoint is of another leaf, other veins, another configuration or version; the
+  /// simulation may then be at no iteration at all.
+  void restore(const Checkpoint& checkpoint);
+
+  /// Ends the run here: the result, with a frame of the last iteration.
+  SimulationResult finish() &&;
+
+ private:
+  class Run;
+  std::unique_ptr<Run> run_;
+};
+
+/// Runs `simulation` until it has ended. Cancellation by the monitor keeps what was computed. `after`, if
+/// given, sees the simulation after every iteration, and once more when it was cancelled.
+SimulationResult simulate(Simulation simulation, const Monitor& monitor = {},
+                          const std::function<void(const Simulation&)>& after = {});
+
+/// The same from the leaf at rest.
 SimulationResult simulate(const Leaf& leaf, const Venation& venation, const Config& config,
                           const Monitor& monitor = {});
 

@@ -1,4 +1,4 @@
-#include "wilt/output/version.hpp"
+#include "wilt/core/version.hpp"
 
 namespace wilt {
 
