@@ -34,10 +34,7 @@ interrupted (Ctrl-C, SIGTERM, SIGHUP); what was computed is kept. A second inter
 .SH FILES
 Every file is written whole or not at all: without a name or under a temporary one (\fI.wilt\-*.tmp\fR) in its folder, then
 renamed, so that an old file stays until the new one is complete. A pipe or a device is written in place. Films are
-encoded by
-.BR ffmpeg (1),
-which writes into a file without a name in
-.IR TMPDIR .
+encoded by \fBffmpeg\fR(1) in memory.
 .P
 Nothing else is read than what the command line names and what those files name beside them, and nothing from a network.
 .SH ENVIRONMENT
@@ -47,15 +44,8 @@ no colours in messages, unless
 .B \-\-color
 asks for them
 .TP
-.B TMPDIR
-the folder for temporary files of a film
-.TP
 .B PATH
-where
-.B ffmpeg
-and
-.B gnuplot
-are found
+where \fBffmpeg\fR and \fBgnuplot\fR are found
 )";
 
 // As text: nothing in it is a request or an escape, and a hyphen can be copied.

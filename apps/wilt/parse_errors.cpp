@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "checks.hpp"
 #include "wilt/core/nearest.hpp"
 
@@ -31,8 +33,10 @@ std::string as_sentence(std::string text) {
   return text;
 }
 
-// An error about a number of arguments begins or ends with the option.
-std::string about_arguments(const CLI::App& app, const std::string& text) {
+// An error about the arguments of an option.
+std::optional<std::string> about_arguments(const CLI::App& app, std::string text) {
+  const std::string conversion = "Could not convert: ";  // of flags; the others' values are checked before
+  if (text.rfind(conversion, 0) == 0) text.erase(0, conversion.size());
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
     if (text.rfind(name + ": At Most", 0) == 0) return name + " was given more than once; give it once";
@@ -41,7 +45,7 @@ std::string about_arguments(const CLI::App& app, const std::string& text) {
       return fmt::format("{} needs a value, {}", name, value_name(*option));
     }
   }
-  return as_sentence(text);
+  return std::nullopt;
 }
 
 // A word that is no option and has no place.
@@ -59,26 +63,29 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error,
   for (const CLI::App* sub : app.get_subcommands()) verb = sub;
   const bool is_main = verb == &app;
   const std::string see = fmt::format("; see `wilt {}--help`", is_main ? "" : verb->get_name() + " ");
-  if (error.get_name() == "ExtrasError") {
+  const auto is = [&error](CLI::ExitCodes kind) { return error.get_exit_code() == static_cast<int>(kind); };
+  if (is(CLI::ExitCodes::ExtrasError)) {
     const std::vector<std::string> verbs = verbs_of(app);
     if (is_main && !words.empty() && words.front().rfind('-', 0) != 0)
       return fmt::format("unknown command '{}'{}; the commands are {}", words.front(),
                          did_you_mean(words.front(), verbs), fmt::join(verbs, ", "));
     std::vector<std::string> flags = flags_of(app);
     for (const std::string& flag : flags_of(*verb)) flags.push_back(flag);
-    for (const std::string& word : verb->remaining()) {
+    const std::vector<std::string> extra = app.remaining(true);
+    for (const std::string& word : extra) {
       const std::string flag = word.substr(0, word.find('='));
       if (flag.size() > 1 && flag[0] == '-')
         return fmt::format("unknown option '{}'{}{}", flag, did_you_mean(flag, flags), see);
     }
-    if (!verb->remaining().empty()) return about_extra(verb->remaining().front(), *verb, is_main) + see;
+    if (!extra.empty()) return about_extra(extra.front(), *verb, is_main) + see;
   }
   const std::string text = error.what();
-  if (error.get_name() == "RequiredError")
+  if (is(CLI::ExitCodes::RequiredError))
     return fmt::format("{} is missing{}", text.substr(0, text.find(' ')), see);
-  if (error.get_name() == "ArgumentMismatch" || error.get_name() == "ConversionError") {
-    const std::string said = about_arguments(*verb, text);
-    return (said == as_sentence(text) ? about_arguments(app, text) : said) + see;
+  if (is(CLI::ExitCodes::ArgumentMismatch) || is(CLI::ExitCodes::ConversionError)) {
+    for (const CLI::App* owner : {verb, &app}) {
+      if (const auto said = about_arguments(*owner, text)) return *said + see;
+    }
   }
   return as_sentence(text) + see;
 }

@@ -23,8 +23,8 @@ void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    throw Error(ErrorCode::output,
-                fmt::format("cannot create the folder '{}': {}", folder.string(), error.message()));
+    throw Error(ErrorCode::output, fmt::format("cannot write into '{}': {}; choose another folder",
+                                               folder.string(), error.message()));
 }
 
 // Four stages from fresh to dry.

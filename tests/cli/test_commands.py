@@ -15,6 +15,8 @@ import time
 import unittest
 import zlib
 
+import voice
+
 WILT = sys.argv.pop(1)
 
 
@@ -52,6 +54,7 @@ class CommandLine(unittest.TestCase):
         result = wilt(*arguments, **options)
         self.assertEqual(result.returncode, code, result.stderr)
         self.assertIn(says, result.stderr)
+        self.assertEqual(voice.faults(result.stderr), [])
         return result
 
     def test_help_shows_examples_first_and_goes_to_stdout(self):

@@ -17,6 +17,8 @@ import tempfile
 import time
 import unittest
 
+import voice
+
 WILT = sys.argv.pop(1)
 OLD = b"the old file"
 LEAF = ["ivy", "--vertices", "200"]
@@ -65,6 +67,7 @@ class Interrupts(unittest.TestCase):
         taken = time.monotonic() - start
         if taken > self.slowest[0]:
             Interrupts.slowest = (taken, name)
+        self.assertEqual(voice.faults(said), [])
         return said
 
     def pipe(self, name):

@@ -1,14 +1,13 @@
 #include "wilt/render/movie.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <boost/process.hpp>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <filesystem>
 #include <map>
 #include <vector>
 
@@ -35,38 +34,24 @@ const std::map<std::string, std::vector<std::string>>& codecs() {
   return kCodecs;
 }
 
-std::string temporary_folder() {
-  std::error_code failed;
-  const std::string folder = std::filesystem::temp_directory_path(failed).string();
-  if (failed)
-    throw Error(ErrorCode::output, "TMPDIR, the folder for temporary files, is not a folder; set it to one");
-  return folder;
-}
-
-/// A file without a name in the folder for temporary files: nobody else can find it, and it is gone when the
-/// program is, however that ends. ffmpeg inherits its descriptor.
-class UnnamedFile {
+/// A file in memory: it needs no disk, nobody else can find it, and it is gone when the program is, however
+/// that ends. ffmpeg inherits its descriptor.
+class MemoryFile {
  public:
-  UnnamedFile() {
-    const std::string folder = temporary_folder();
-    std::string name = folder + "/wilt-XXXXXX";
-    descriptor_ = mkstemp(name.data());
+  MemoryFile() : descriptor_(memfd_create("wilt", 0)) {
     if (descriptor_ < 0)
       throw Error(ErrorCode::output,
-                  fmt::format("cannot write into the folder for temporary files, '{}': {}; set TMPDIR to a "
-                              "folder with space",
-                              folder, std::strerror(errno)));
-    ::unlink(name.c_str());
+                  fmt::format("a film cannot be begun: {}; close some programs", std::strerror(errno)));
   }
-  ~UnnamedFile() { ::close(descriptor_); }
-  UnnamedFile(const UnnamedFile&) = delete;
-  UnnamedFile& operator=(const UnnamedFile&) = delete;
+  ~MemoryFile() { ::close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
 
   /// A path under which this program and its children reach it.
   std::string path() const { return fmt::format("/dev/fd/{}", descriptor_); }
 
  private:
-  int descriptor_ = -1;
+  int descriptor_;
 };
 
 }  // namespace
@@ -88,8 +73,8 @@ class MovieWriter::Encoder {
                                           "-i",       "-"};
     const auto& codec = codecs().at(extension_of(path));
     arguments.insert(arguments.end(), codec.begin(), codec.end());
-    arguments.insert(arguments.end(), {"-fflags", "+bitexact", "-flags:v", "+bitexact", "-threads", "2", "-f",
-                                       extension_of(path).substr(1), "-y", film_.path()});
+    arguments.insert(arguments.end(), {"-fflags", "+bitexact", "-flags:v", "+bitexact", "-threads", "2",
+                                       "-xerror", "-f", extension_of(path).substr(1), "-y", film_.path()});
     std::error_code failed;
     child_ = process::child(
         program, process::args(arguments),
@@ -118,25 +103,27 @@ class MovieWriter::Encoder {
     pictures_.flush();
     pictures_.pipe().close();
     child_.wait();
-    if (child_.exit_code() != 0) fail();
+    // It may say that it could not write the end, and exit with 0.
+    if (child_.exit_code() != 0 || !said().empty()) fail();
     write_file(path_, read_file(film_.path()));
   }
 
  private:
+  std::string said() const { return read_file(errors_.path()); }
+
   [[noreturn]] void fail() {
     pictures_.pipe().close();
     child_.wait();
-    const std::string said = read_file(errors_.path()), reason = said.substr(0, said.find('\n'));
-    throw Error(
-        ErrorCode::output,
-        fmt::format("cannot write '{}': ffmpeg could not make the film{}{}; it needs space in '{}' (set "
-                    "TMPDIR to choose another folder) and its own H.264 or VP9 encoder",
-                    path_, reason.empty() ? "" : ": ", reason, temporary_folder()));
+    const std::string all = said(), reason = all.substr(0, all.find('\n'));
+    throw Error(ErrorCode::output,
+                fmt::format("cannot write '{}': ffmpeg could not make the film{}{}; free some memory, or see "
+                            "whether `ffmpeg -codecs` has H.264 (.mp4) and VP9 (.webm)",
+                            path_, reason.empty() ? "" : ": ", reason));
   }
 
   std::string path_;
   int width_, height_;
-  UnnamedFile film_, errors_;
+  MemoryFile film_, errors_;
   process::opstream pictures_;
   process::child child_;
   process::group group_;  // out of reach of the terminal's Ctrl-C

@@ -113,7 +113,8 @@ toml::table parse(std::string_view toml, std::string_view source) {
   try {
     return toml::parse(toml);
   } catch (const toml::parse_error& error) {
-    fail(fmt::format("{}, line {}: {}", source, error.source().begin.line, error.description()));
+    fail(fmt::format("{}, line {}: this is not TOML ({}); settings are lines like `dt = 0.1`", source,
+                     error.source().begin.line, error.description()));
   }
 }
 
