@@ -92,7 +92,7 @@ class Writers(unittest.TestCase):
     def tearDownClass(cls):
         cls.base.cleanup()
         columns = list(dict.fromkeys(c for row in cls.table.values() for c in row))
-        width = max(map(len, cls.table))
+        width = max(map(len, cls.table), default=0)
         print("\n" + " " * width, *(f"{c:>16}" for c in columns))
         for writer, row in cls.table.items():
             print(f"{writer:{width}}", *(f"{row.get(c, ''):>16}" for c in columns))
