@@ -2,6 +2,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <thread>
 
 #include <cmath>
@@ -88,6 +90,34 @@ TEST(ThreadLimit, OfOneKeepsTheLoopOnTheCallingThread) {
     if (std::this_thread::get_id() != here) ++elsewhere;
   });
   EXPECT_EQ(elsewhere, 0);
+}
+
+// Whether `threads` calls of a loop can be under way at the same time: each waits for the others.
+template <class Loop>
+bool meet(int threads, const Loop& loop) {
+  std::mutex mutex;
+  std::condition_variable all_here;
+  int here = 0;
+  std::atomic<bool> met = true;
+  loop([&] {
+    std::unique_lock lock(mutex);
+    ++here;
+    all_here.notify_all();
+    if (!all_here.wait_for(lock, std::chrono::seconds(20), [&] { return here >= threads; })) met = false;
+  });
+  return met;
+}
+
+// Oracle: calls that wait for each other end only when there is a thread for each; more than processors too.
+TEST(ThreadLimit, GivesAsManyThreadsAsItSays) {
+  for (const int threads : {2, 3, 8}) {
+    const ThreadLimit limit(threads);
+    EXPECT_TRUE(meet(threads, [&](const auto& call) { parallel_for(threads, 1, [&](int, int) { call(); }); }))
+        << threads;
+    Crew crew;
+    EXPECT_TRUE(meet(threads, [&](const auto& call) { crew.for_each(threads, [&](int) { call(); }); }))
+        << threads;
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "wilt/core/check.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/core/jpeg_tables.hpp"
 
 // Ours alone (static): other sources, and tinygltf, may hold theirs.
 #define STB_IMAGE_STATIC
@@ -68,6 +69,7 @@ using Pixels = std::unique_ptr<stbi_uc, FreePixels>;
 // Rows of `channels` bytes a pixel.
 Pixels decode(std::string_view bytes, int channels, int& width, int& height) {
   check_length(bytes);
+  if (bytes.starts_with('\xff')) detail::check_jpeg_tables(bytes);
   int found = 0;
   Pixels pixels(stbi_load_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &width, &height, &found,
                                       channels));

@@ -5,101 +5,57 @@
 #include <tbb/task_group.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cstdint>
-#include <numeric>
-#include <thread>
-#include <vector>
 
 #include "wilt/core/parallel.hpp"
+#include "wilt/core/parallel_backend.hpp"
 
 namespace wilt {
+namespace {
+
+int limit_now() {
+  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+// The arena that a thread begins in has a place per processor; only a limit above that needs one of its own.
+bool needs_an_arena() {
+  return limit_now() > tbb::this_task_arena::max_concurrency();
+}
+
+}  // namespace
 
 void parallel_for(int count, int grain, const std::function<void(int, int)>& body) {
   if (count <= 0) return;
   if (count <= grain) return body(0, count);
-  tbb::parallel_for(tbb::blocked_range<int>(0, count, grain),
-                    [&](const tbb::blocked_range<int>& range) { body(range.begin(), range.end()); });
+  const auto loop = [&] {
+    tbb::parallel_for(tbb::blocked_range<int>(0, count, grain),
+                      [&](const tbb::blocked_range<int>& range) { body(range.begin(), range.end()); });
+  };
+  if (needs_an_arena()) return tbb::task_arena(limit_now()).execute(loop);
+  loop();
 }
 
-double parallel_sum(int count, int block, const std::function<double(int, int)>& block_sum) {
-  if (count <= 0) return 0.0;
-  const int blocks = (count + block - 1) / block;
-  std::vector<double> sums(blocks);
-  parallel_for(blocks, 1, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) sums[i] = block_sum(i * block, std::min(count, (i + 1) * block));
-  });
-  return std::accumulate(sums.begin(), sums.end(), 0.0);
+namespace detail {
+
+int threads_allowed() {
+  return needs_an_arena() ? limit_now() : std::min(limit_now(), tbb::this_task_arena::max_concurrency());
 }
 
-// The loop that is under way is one word: its number, how many calls it has, and which comes next. Whoever
-// takes a call from it by adding 1 knows all three at once, and the caller starts no other loop before all
-// calls have returned, so a helper that comes late takes nothing.
-struct Crew::Impl {
-  static constexpr int kBits = 24;
-  static constexpr std::uint64_t kMask = (1u << kBits) - 1;
-  static constexpr int kSpins = 2000;  // looks at the word before the processor is offered to others
-
-  std::atomic<std::uint64_t> word{0};
-  std::atomic<int> finished{0};
-  std::atomic<bool> over{false};
-  const std::function<void(int)>* body = nullptr;
-  tbb::task_group helpers;
-  bool called = false;
-
-  // Makes calls until none is left.
-  void work() {
-    for (;;) {
-      const std::uint64_t seen = word.load(std::memory_order_acquire);
-      if ((seen & kMask) >= (seen >> kBits & kMask)) return;
-      const std::uint64_t taken = word.fetch_add(1, std::memory_order_acq_rel);
-      if ((taken & kMask) >= (taken >> kBits & kMask)) return;
-      (*body)(static_cast<int>(taken & kMask));
-      finished.fetch_add(1, std::memory_order_release);
-    }
-  }
-  void help() {
-    for (int spins = 0; !over.load(std::memory_order_acquire); ++spins) {
-      const std::uint64_t seen = word.load(std::memory_order_acquire);
-      if ((seen & kMask) < (seen >> kBits & kMask)) {
-        work();
-        spins = 0;
-      }
-      if (spins > kSpins) std::this_thread::yield();
-    }
-  }
-  void call_helpers() {
-    called = true;
-    const int threads = std::min(
-        tbb::this_task_arena::max_concurrency(),
-        static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
-    for (int k = 1; k < threads; ++k) helpers.run([this] { help(); });
-  }
+struct Helpers::Impl {
+  tbb::task_arena arena =
+      needs_an_arena() ? tbb::task_arena(limit_now()) : tbb::task_arena(tbb::task_arena::attach());
+  tbb::task_group group;
 };
 
-Crew::Crew() : impl_(std::make_unique<Impl>()) {}
-
-Crew::~Crew() {
-  impl_->over.store(true, std::memory_order_release);
-  impl_->helpers.wait();
+Helpers::Helpers() : impl_(std::make_unique<Impl>()) {}
+Helpers::~Helpers() = default;
+void Helpers::run(const std::function<void()>& task) {
+  impl_->arena.execute([&] { impl_->group.run(task); });
+}
+void Helpers::wait() {
+  impl_->arena.execute([&] { impl_->group.wait(); });
 }
 
-void Crew::for_each(int count, const std::function<void(int)>& body) {
-  if (count <= 1) {
-    if (count == 1) body(0);
-    return;
-  }
-  if (!impl_->called) impl_->call_helpers();
-  impl_->body = &body;
-  impl_->finished.store(0, std::memory_order_relaxed);
-  const std::uint64_t loop = (impl_->word.load(std::memory_order_relaxed) >> 2 * Impl::kBits) + 1;
-  impl_->word.store(loop << 2 * Impl::kBits | static_cast<std::uint64_t>(count) << Impl::kBits,
-                    std::memory_order_release);
-  impl_->work();
-  for (int spins = 0; impl_->finished.load(std::memory_order_acquire) < count; ++spins) {
-    if (spins > Impl::kSpins) std::this_thread::yield();
-  }
-}
+}  // namespace detail
 
 // A copy of a control ends it, so it is made in place.
 struct ThreadLimit::Impl {

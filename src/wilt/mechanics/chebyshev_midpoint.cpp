@@ -339,7 +339,9 @@ ChebyshevReport ChebyshevMidpoint::solve(const System& system, const Points3& lo
     report.residual = pass(crew, alpha, beta);
     if (report.passes++ == 0) {
       report.scale = std::max(scales.force, report.residual);
-      target = std::max(tolerance * report.scale, (1.0 + spectrum.high) * scales.round_off);
+      const double round_off = (1.0 + spectrum.high) * scales.round_off;
+      target = std::max(tolerance * report.scale, round_off);
+      report.scale = std::max(report.scale, round_off / tolerance);
       most += 2.0 * std::max(0.0, std::log(target / report.residual) / std::log(rate));
     }
     if (report.residual <= target) break;

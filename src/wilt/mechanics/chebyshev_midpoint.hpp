@@ -13,7 +13,8 @@ namespace wilt::detail {
 struct ChebyshevReport {
   bool converged = false;
   int passes = 0;  ///< evaluations of the forces
-  double residual = 0.0, scale = 0.0;
+  double residual = 0.0;
+  double scale = 0.0;  ///< the tolerance times it is what the residual was to reach
 };
 
 /// Solves R(u) = 4 M/dt^2 (u - x0 - dt/2 v0) - F(u) = 0 for the midpoint u by Chebyshev's semi-iteration on

@@ -32,7 +32,8 @@ struct StepReport {
   int substeps = 0;       ///< steps that the time was covered with; 1 when nothing was halved
   int newton = 0;         ///< Newton iterations, over all attempts; 0 where none was needed
   int linear = 0;         ///< conjugate-gradient iterations and passes without a matrix, over all attempts
-  double residual = 0.0;  ///< the largest of the accepted substeps, relative to the force scale
+  /// The largest of the accepted substeps, relative to max(S, round-off / tolerance): at most the tolerance.
+  double residual = 0.0;
 };
 
 /// v1 = v0 + dt F((x0 + x1)/2, (v0 + v1)/2) / m,  x1 = x0 + dt/2 (v0 + v1)  (the paper's [23]; Hairer, Lubich

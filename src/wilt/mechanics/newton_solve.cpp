@@ -96,6 +96,11 @@ bool NewtonSolve::run(const MotionState& start, double dt, StepReport& report) {
   return true;
 }
 
+double NewtonSolve::relative_residual() const {
+  const double scale = target_ > options_.tolerance * scale_ ? target_ / options_.tolerance : scale_;
+  return scale > 0.0 ? current_.norm / scale : 0.0;
+}
+
 bool NewtonSolve::fail(const std::string& reason) {
   report_->reason = fmt::format("{} at a step of {}", reason, dt_);
   return false;

@@ -34,7 +34,8 @@ class NewtonSolve {
   /// One step. False: the report says why.
   bool run(const MotionState& start, double dt, StepReport& report);
   const Points3& displacement() const { return d_; }  ///< of the last step
-  double relative_residual() const { return scale_ > 0.0 ? current_.norm / scale_ : 0.0; }
+  /// Of the force scale; where round-off sets the target, of the scale that makes it the tolerance.
+  double relative_residual() const;
 
  private:
   bool fail(const std::string& reason);

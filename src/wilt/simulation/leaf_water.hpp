@@ -22,6 +22,9 @@ class LeafWater {
   LeafWater(const Config& config, WaterForm form, const Eigen::VectorXd& mass, double loss, double scale,
             const Edges& edges, const Eigen::VectorXd& rest_lengths);
 
+  /// No cell falls below 1e-3 times `scale`, or a tenth of the driest cell's first water where that is less.
+  /// Throws Error{simulation} when a mass is not finite, and, in the conservative form, when the solver stops
+  /// short or water is not what it was less what was lost, to 1e-9: the state is then not to be used.
   void advance(double dt);
   void exchange_state(StateArchive& archive);
 

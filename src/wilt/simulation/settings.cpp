@@ -126,7 +126,7 @@ std::vector<Setting> make_settings() {
     {"curvature.variation", "", "cell: how unevenly the margin rolls",
      0, 10, {}, WILT_FIELD(curvature.variation)},
     {"strain_limit.threshold", "", "cell: strain at which springs begin to stiffen",
-     0, 1, {}, WILT_FIELD(strain_limit.threshold)},
+     0, 0.99, {}, WILT_FIELD(strain_limit.threshold)},
     {"strain_limit.stiffness", "", "cell: how fast they stiffen, in units of k_s",
      0, 1e5, {}, WILT_FIELD(strain_limit.stiffness)},
     {"strain_limit.area", "", "cell: share of its rest area below which a triangle resists",
@@ -146,7 +146,7 @@ std::vector<Setting> make_settings() {
     {"solver.max_newton", "", "Newton iterations before the step is halved",
      1, 1000, {}, WILT_FIELD(solver.max_newton)},
     {"solver.max_halvings", "", "halvings of a step before the run stops",
-     0, 20, {}, WILT_FIELD(solver.max_halvings)},
+     0, 12, {}, WILT_FIELD(solver.max_halvings)},
   };
 }
 // clang-format on

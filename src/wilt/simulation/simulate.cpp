@@ -13,6 +13,7 @@
 #include "wilt/simulation/deformation_model.hpp"
 #include "wilt/simulation/metrics.hpp"
 #include "wilt/simulation/regions.hpp"
+#include "wilt/simulation/watchdog.hpp"
 
 namespace wilt {
 namespace {
@@ -58,6 +59,7 @@ class Simulation::Run {
         metrics_(leaf.mesh, rest_, leaf.petiole, tip_vertices(venation)),
         ring_(leaf.mesh.one_ring(leaf.petiole)),
         integrator_(model_->system(), midpoint_options(config)),
+        watchdog_(leaf.mesh, rest_, config.dt, config.solver.tolerance),
         frames_(frame_iterations(config)) {
     ring_.push_back(leaf.petiole);
     state_.positions = rest_;
@@ -75,8 +77,7 @@ class Simulation::Run {
     const int iteration = iteration_ + 1;
     try {
       model_->advance(config_.dt, state_.positions);
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::simulation) throw;
+    } catch (const Error& error) {  // whatever it is called: the settings were good enough for the first step
       return stop(iteration, error.what());
     }
     const StepReport report = integrator_.step(state_, config_.dt);
@@ -84,6 +85,9 @@ class Simulation::Run {
     if (!report.converged) return stop(iteration, report.reason);
     iteration_ = iteration;
     record();
+    const std::string complaint = watchdog_.complaint(result_.steps.back(), state_.positions,
+                                                      state_.velocities, model_->system().masses());
+    if (!complaint.empty()) stop(iteration, complaint);
   }
 
   Checkpoint checkpoint() {
@@ -188,6 +192,7 @@ class Simulation::Run {
   LeafMetrics metrics_;
   std::vector<VertexId> ring_;
   ImplicitMidpoint integrator_;
+  Watchdog watchdog_;
   std::vector<int> frames_;  // the iterations at which frames are taken, ascending
   MotionState state_;
   int iteration_ = 0;

@@ -27,8 +27,9 @@ class Simulation {
   /// All iterations are done, or the run has stopped: SimulationResult::stop_reason.
   bool ended() const;
 
-  /// One iteration. A step that does not converge is halved; when that fails too, or the state is no longer
-  /// finite, the run stops, keeps what was computed and says why. Nothing happens once it has ended.
+  /// One iteration. A step that does not converge is halved; when that fails too, or the watchdog
+  /// (watchdog.hpp) finds that no leaf does that, the run stops, keeps what was computed and says why.
+  /// Nothing happens once it has ended.
   void step();
 
   /// What has been recorded until now.
