@@ -63,7 +63,7 @@ class Interrupts(unittest.TestCase):
 
     def end(self, process, name=""):
         start = time.monotonic()
-        _, said = process.communicate(timeout=300)
+        _, said = process.communicate(timeout=60)
         taken = time.monotonic() - start
         if taken > self.slowest[0]:
             Interrupts.slowest = (taken, name)

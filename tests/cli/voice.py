@@ -6,9 +6,9 @@ FOREIGN = re.compile(r"std::|::\w|what\(\)|exception|terminate|\b0x[0-9a-f]{4}|\
                      r"not in range|Could not convert|was not expected|required but received|REQUIRED|\bINT\b|\bTEXT\b")
 # Words of a remedy, or a statement of what is allowed.
 REMEDY = re.compile(r"did you mean|see `wilt|between|allowed|takes |takes$|give |choose|add |make it|install|free |remove|check |"
-                    r"try |delete|put quotes|lists them all|results are|must be|is \.|there are|available|known|are lines|are \.|a film \.|cut it|send it|goes with|"
+                    r"try |delete|put quotes|lists them all|results are|must be|is \.|there are|species are|available|known|are lines|are \.|a film \.|cut it|send it|goes with|"
                     r"go with|has ended|to \d|one of|raise|open it|draw |scale|simplify|clean|leaves? out|needs? |--resume|"
-                    r"was written|not written|are done|at most|nothing more|lost|has the frames|neither|name the|edit|fit |export|write it")
+                    r"was written|not written|are done|at most|shows \d|nothing more|lost|has the frames|neither|name the|edit|fit |export|write it")
 
 
 def faults(stderr):
