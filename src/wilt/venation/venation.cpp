@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "wilt/core/error.hpp"
 #include "wilt/core/parallel.hpp"
 #include "wilt/geodesics/exact_geodesics.hpp"
 #include "wilt/mesh/geometry.hpp"
@@ -90,6 +91,18 @@ Eigen::MatrixXd rows(int count, int columns, const RowOf& row_of) {
   return matrix;
 }
 
+// Distances from every tip to every vertex are kept three times over.
+void check_count(std::size_t tips, int vertices) {
+  constexpr double kMostDistances = 4e8;  // 10 GB
+  if (static_cast<double>(tips) * vertices > kMostDistances)
+    throw Error(
+        ErrorCode::input,
+        fmt::format("{} vein tips on {} vertices are more than memory is taken for: a rough margin has "
+                    "too many peaks; give fewer --vertices (5000 shows every lobe), or raise "
+                    "veins.min_prominence",
+                    tips, vertices));
+}
+
 // The veins that the photo shows in place of those found, if it shows any.
 void use_photo(const Leaf& leaf, const VenationOptions& options, Venation& result) {
   std::vector<DrawnVein> shown = photo_veins(leaf, result);
@@ -125,6 +138,7 @@ Venation find_venation(const Leaf& leaf, const SecondaryVeinRule& rule, const Ve
   result.tips = find_tips(result.margin, options.peaks);
   monitor.report("venation", 0.1);
 
+  check_count(result.tips.size(), leaf.mesh.num_vertices());
   const int vertices = leaf.mesh.num_vertices(), tips = static_cast<int>(result.tips.size());
   std::vector<VertexId> end_vertices{leaf.petiole};
   for (const Tip& tip : result.tips) end_vertices.push_back(tip.vertex);
