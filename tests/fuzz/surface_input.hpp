@@ -23,8 +23,9 @@ inline double coordinate(Bytes& bytes, bool raw) {
 }
 
 /// Options (bits: 1 coordinates are raw float32 instead of whole numbers from -128 to 127, 2 with texture
-/// coordinates, 4 a petiole is given), the number of vertices, their coordinates; then a byte for every
-/// corner of a face, modulo the number of vertices.
+/// coordinates), the number of vertices, their coordinates; two bytes for the petiole (finding one takes a
+/// hundred times as long as all the rest); then a byte for every corner of a face, modulo the number of
+/// vertices.
 inline SurfaceInput surface_input(Bytes bytes, int most_faces) {
   SurfaceInput input;
   const int flags = bytes.byte(), vertices = bytes.byte();
@@ -35,7 +36,7 @@ inline SurfaceInput surface_input(Bytes bytes, int most_faces) {
     for (int c = 0; c < 3; ++c) soup.positions(v, c) = coordinate(bytes, flags & 1);
     if (flags & 2) soup.uv.row(v) << bytes.byte() / 255.0, bytes.byte() / 255.0;
   }
-  if (flags & 4) input.options.petiole = Vec2(bytes.signed_byte(), bytes.signed_byte());
+  input.options.petiole = Vec2(bytes.signed_byte(), bytes.signed_byte());
   const int faces = vertices == 0 ? 0 : std::min(most_faces, static_cast<int>(bytes.left() / 3));
   soup.faces.resize(faces, 3);
   for (int f = 0; f < faces; ++f)
