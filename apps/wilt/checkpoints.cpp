@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "interrupts.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/core/file.hpp"
 

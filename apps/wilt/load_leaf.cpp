@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 
 #include "arguments.hpp"
+#include "checks.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/core/file.hpp"
 #include "wilt/core/nearest.hpp"
@@ -17,10 +17,19 @@
 namespace wilt::cli {
 namespace {
 
-constexpr int kDefaultVertices = 2000;
+constexpr std::uint64_t kLargestVeins = std::uint64_t{256} << 20;  // bytes
 
 bool looks_like_a_file(const std::string& leaf) {
   return std::filesystem::path(leaf).has_extension() || leaf.find('/') != std::string::npos;
+}
+
+CLI::Validator number_or_all() {
+  const auto number = whole_number(1, 10000);
+  const auto check = [number](const std::string& text) -> std::string {
+    const std::string refusal = text == "all" ? "" : number(text);
+    return refusal.empty() ? "" : refusal + "; or all";
+  };
+  return {check, ""};
 }
 
 ReadOptions read_options(const LeafRequest& request) {
@@ -45,12 +54,16 @@ void add_leaf_options(CLI::App& verb, LeafRequest& request) {
                   "A species (maple poplar tilia ivy willow grape), a photo (.jpg .png),\n"
                   "a mesh (.obj .ply .stl .glb .gltf), an outline (.svg .json)\n"
                   "or a scan (.xyz .txt .csv, .ply without faces)")
-      ->required();
+      ->required()
+      ->check(offers(species_names()))
+      ->type_name("FILE");
   verb.add_option("--vertices", request.vertices,
                   "Vertices of the mesh, 200 to 1000000 (2000, of a photo 5000;\na mesh file keeps its own)")
-      ->check(CLI::Range(200, 1000000))
+      ->check(whole_number(200, 1000000))
       ->type_name("N");
-  verb.add_option("--seed", request.seed, "Varies the individual leaf (1)")->type_name("N");
+  verb.add_option("--seed", request.seed, "Varies the individual leaf (1)")
+      ->check(whole_number(0, kMostSeed))
+      ->type_name("N");
   verb.add_option("--petiole", request.petiole,
                   "Where the stalk meets the blade: pixels of a photo, units of a file")
       ->type_name("X,Y");
@@ -58,19 +71,22 @@ void add_leaf_options(CLI::App& verb, LeafRequest& request) {
           "--leaf", request.which,
           "Take the N-th largest leaf of a photo, drawing or scan (1),\nor all of a photo: leaf-1.glb, "
           "leaf-2.glb ...")
-      ->check(CLI::Range(1, 10000) | CLI::IsMember({"all"}))
+      ->check(number_or_all())
       ->type_name("N");
   verb.add_option("--mm-per-pixel", request.mm_per_pixel, "Scale of a photo (else 100 mm across)")
+      ->check(number(1e-6, 1e6))
       ->type_name("MM");
   verb.add_option("--mask", request.mask, "A picture of the photo's shape, white where the leaf is")
       ->type_name("FILE");
   verb.add_option("--threshold", request.threshold,
                   "Colour difference at which a photo's leaf begins, 0 to 100 (found)")
+      ->check(number(0.0, 100.0))
       ->type_name("X");
   verb.add_flag("--scan", request.scan,
                 "Take the vertices of a mesh as the points of a scan: clean and fit them");
   verb.add_option("--mm-per-unit", request.mm_per_unit,
                   "Unit of a scan (1 mm, or 1 m for a blade below 2 units)")
+      ->check(number(1e-9, 1e9))
       ->type_name("MM");
 }
 
@@ -88,9 +104,10 @@ Leaf load_leaf(const LeafRequest& request, const Monitor& monitor) {
                   "petiole");
     return make_leaf(request.leaf, request.vertices.value_or(kDefaultVertices), request.seed, monitor);
   }
-  if (!std::filesystem::exists(request.leaf)) {
+  std::error_code unknown;  // of a symbolic link to itself, say
+  if (!std::filesystem::exists(request.leaf, unknown)) {
     if (looks_like_a_file(request.leaf))
-      throw Error(ErrorCode::input, fmt::format("there is no file '{}'", request.leaf));
+      throw Error(ErrorCode::input, fmt::format("there is no file '{}'; check the path", request.leaf));
     throw Error(ErrorCode::input,
                 fmt::format("'{}' is neither a species ({}) nor a file{}", request.leaf,
                             fmt::join(species_names(), ", "), did_you_mean(request.leaf, species_names())));
@@ -102,7 +119,8 @@ void for_each_leaf(
     const LeafRequest& request,
     const std::function<void(const LeafRequest& leaf,
                              const std::function<std::string(const std::string&)>& name)>& run) {
-  const bool all = request.which == "all" && std::filesystem::is_regular_file(request.leaf);
+  std::error_code unknown;
+  const bool all = request.which == "all" && std::filesystem::is_regular_file(request.leaf, unknown);
   if (!all) return run(request, [](const std::string& path) { return path; });
   if (!request.petiole.empty() || !request.veins.empty())
     throw Error(ErrorCode::configuration,
@@ -132,7 +150,7 @@ Venation load_veins(const LeafRequest& request, const Leaf& leaf, const Secondar
                     const VenationOptions& options, const Monitor& monitor) {
   Venation found = find_venation(leaf, rule, options, monitor);
   if (request.veins.empty()) return found;
-  const std::string text = read_file(request.veins);
+  const std::string text = read_file(request.veins, kLargestVeins);
   try {
     return with_drawn_veins(leaf, found, parse_veins_json(text, request.veins, leaf, found), options);
   } catch (const Error& error) {

@@ -16,6 +16,8 @@ class App;
 
 namespace wilt::cli {
 
+inline constexpr int kDefaultVertices = 2000;  ///< of a species
+
 struct LeafRequest {
   std::string leaf;             ///< a species' name or a file
   std::optional<int> vertices;  ///< absent: 2000, or a mesh file's own

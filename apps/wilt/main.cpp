@@ -1,16 +1,18 @@
 // wilt: makes leaves wither. Parses the command line and turns errors into messages and exit codes.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <map>
 #include <memory>
 #include <new>
+#include <sstream>
 
+#include "checks.hpp"
+#include "completion.hpp"
+#include "interrupts.hpp"
+#include "manual.hpp"
+#include "parse_errors.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
-#include "wilt/core/nearest.hpp"
 #include "wilt/core/version.hpp"
 
 namespace wilt::cli {
@@ -28,9 +30,16 @@ constexpr const char* kIntroduction =
     "  wilt veins ivy -o veins.svg                only the veins\n"
     "  wilt COMMAND --help                        what a command takes\n";
 
-// Lists a command by the first line of its description; the rest, its examples, stands in its own help.
+// Lists a command by the first line of its description (the rest, its examples, stands in its own help) and
+// an option by what it takes.
 class BriefFormatter : public CLI::Formatter {
  public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    if (option->get_positional() || option->get_items_expected_max() == 0) return "";
+    std::string text = " " + value_name(*option);
+    if (option->get_expected_max() > 1) text += " ...";
+    return option->get_required() ? text + " REQUIRED" : text;
+  }
   std::string make_subcommand(const CLI::App* verb) const override {
     const std::string description = verb->get_description();
     return fmt::format("  {:<12}{}\n", verb->get_name(), description.substr(0, description.find('\n')));
@@ -38,39 +47,34 @@ class BriefFormatter : public CLI::Formatter {
 };
 
 void add_global_options(CLI::App& app, GlobalOptions& options) {
-  static const std::map<std::string, Colour> kColours = {
-      {"auto", Colour::automatic}, {"always", Colour::always}, {"never", Colour::never}};
   app.add_flag("--json", options.json, "Machine-readable data on stdout");
   app.add_flag("-q,--quiet", options.quiet, "Only warnings and errors");
   app.add_flag("-v,--verbose", options.verbose, "More detail");
-  app.add_option("--color", options.colour, "auto, always or never (auto; NO_COLOR is respected)")
-      ->transform(CLI::CheckedTransformer(kColours, CLI::ignore_case).description(""))
+  app.add_option_function<std::string>(
+         "--color",
+         [&options](const std::string& when) {
+           options.colour = when == "always"  ? Colour::always
+                            : when == "never" ? Colour::never
+                                              : Colour::automatic;
+         },
+         "auto, always or never (auto; NO_COLOR is respected)")
+      ->check(one_of({"auto", "always", "never"}))
       ->type_name("WHEN");
 }
 
-// The words that CLI11 could not place, with the nearest that it knows.
-std::string explain(const CLI::App& app, const CLI::ParseError& error,
-                    const std::vector<std::string>& words) {
-  const CLI::App* verb = &app;
-  for (const CLI::App* sub : app.get_subcommands()) verb = sub;
-  std::vector<std::string> verbs, flags;
-  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
-    verbs.push_back(sub->get_name());
-  for (const CLI::App* owner : {&app, verb}) {
-    for (const CLI::Option* option : owner->get_options()) {
-      for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
-    }
-  }
-  if (verb == &app && !words.empty() && words.front().rfind('-', 0) != 0)
-    return fmt::format("unknown command '{}'{}; the commands are {}", words.front(),
-                       did_you_mean(words.front(), verbs), fmt::join(verbs, ", "));
-  for (const std::string& word : words) {
-    const std::string flag = word.substr(0, word.find('='));
-    if (flag.rfind("--", 0) == 0 && std::find(flags.begin(), flags.end(), flag) == flags.end())
-      return fmt::format("unknown option '{}'{}; see `wilt {} --help`", flag, did_you_mean(flag, flags),
-                         verb == &app ? "" : verb->get_name());
-  }
-  return fmt::format("{}; see `wilt {}--help`", error.what(), verb == &app ? "" : verb->get_name() + " ");
+// What is made of the command line's own definitions.
+void add_texts(CLI::App& app) {
+  const auto print = [](const std::string& text) {
+    throw CLI::CallForVersion(text.substr(0, text.size() - 1), 0);
+  };
+  app.add_flag_callback(
+      "--man", [&app, print] { print(manual(describe(app))); },
+      "The manual page, and stop: wilt --man | man -l -");
+  app.add_option_function<std::string>(
+         "--completion", [&app, print](const std::string& shell) { print(completion(describe(app), shell)); },
+         "The script by which a shell completes wilt's words, and stop: bash, fish or zsh")
+      ->check(one_of(completed_shells()))
+      ->type_name("SHELL");
 }
 
 int run(int argc, char** argv) {
@@ -80,6 +84,8 @@ int run(int argc, char** argv) {
   const auto formatter = std::make_shared<BriefFormatter>();
   formatter->column_width(34);
   app.formatter(formatter);
+  app.get_option("--help")->description("This help, and stop");
+  app.get_option("--version")->description("The version, and stop");
   app.fallthrough();
   app.require_subcommand(0, 1);
   add_global_options(app, options);
@@ -91,19 +97,24 @@ int run(int argc, char** argv) {
   add_render(app, options);
   add_info(app, options);
   add_reproduce(app, options);
+  add_texts(app);
   const auto fail = [&](const std::string& message, ErrorCode code) {
     Terminal(options).error(message);
     return static_cast<int>(code);
   };
+  const std::vector<std::string> words(argv + 1, argv + argc);
   try {
-    app.parse(argc, argv);
-    if (app.get_subcommands().empty()) fmt::print("{}", app.help());
+    try {
+      app.parse(argc, argv);
+      if (app.get_subcommands().empty()) print_data(app.help());
+    } catch (const CLI::Success& asked) {  // --help, --version
+      std::ostringstream text;
+      app.exit(asked, text, text);
+      print_data(text.str());
+    }
     return 0;
-  } catch (const CLI::Success& success) {  // --help, --version
-    return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    return fail(explain(app, error, std::vector<std::string>(argv + 1, argv + argc)),
-                ErrorCode::configuration);
+    return fail(explain(app, error, words), ErrorCode::configuration);
   } catch (const Error& error) {
     return fail(error.what(), error.code());
   } catch (const std::bad_alloc&) {
@@ -117,5 +128,7 @@ int run(int argc, char** argv) {
 }  // namespace wilt::cli
 
 int main(int argc, char** argv) {
+  wilt::cli::guard_standard_streams();
+  wilt::cli::end_on_interrupt();
   return wilt::cli::run(argc, argv);
 }

@@ -187,6 +187,16 @@ std::string result_formats_help() {
   return text;
 }
 
+std::vector<std::string> result_files(const std::vector<std::string>& paths, int frames) {
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    for (const ResultFile& file : result_format(path).files(path, frames)) {
+      if (std::find(files.begin(), files.end(), file.path) == files.end()) files.push_back(file.path);
+    }
+  }
+  return files;
+}
+
 void check_results(const std::vector<std::string>& paths, const std::vector<std::string>& others,
                    int frames) {
   struct Writer {

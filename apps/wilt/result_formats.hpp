@@ -31,6 +31,9 @@ const ResultFormat& result_format(const std::string& path);
 /// A line for each format: what -o's help says.
 std::string result_formats_help();
 
+/// Every file that the results of a run of `frames` frames are.
+std::vector<std::string> result_files(const std::vector<std::string>& paths, int frames);
+
 /// Throws unless every path has an extension of the table and can become a file, and no file is
 /// to be written twice with different contents: said before the work. `others`: further files of the run.
 void check_results(const std::vector<std::string>& paths, const std::vector<std::string>& others, int frames);

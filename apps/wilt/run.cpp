@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <filesystem>
 
+#include "interrupts.hpp"
 #include "result_formats.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/output/glb_scene.hpp"
@@ -26,6 +29,7 @@ double seconds_since(Clock::time_point start) {
 
 WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& terminal,
                     const CheckpointOptions& checkpoint) {
+  end_on_interrupt();  // nothing is worth keeping before the first frame
   Checkpoints checkpoints(checkpoint, terminal);
   const Monitor monitor = terminal.monitor();
   WitheredLeaf withered;
@@ -46,6 +50,7 @@ WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& 
   start = Clock::now();
   Simulation simulation(withered.leaf, withered.venation, withered.config);
   checkpoints.resume(simulation);
+  ask_on_interrupt();
   withered.result =
       simulate(std::move(simulation), monitor, [&](const Simulation& now) { checkpoints.save(now); });
   withered.timings.simulation = seconds_since(start);
@@ -54,14 +59,16 @@ WitheredLeaf wither(const LeafRequest& request, const Config& config, Terminal& 
 
 void check_writable(const std::string& path) {
   const auto refuse = [&path](const std::string& reason) {
-    throw Error(ErrorCode::output, fmt::format("cannot write '{}': {}", path, reason));
+    throw Error(ErrorCode::output, fmt::format("cannot write '{}': {}; choose another path", path, reason));
   };
-  if (std::filesystem::is_directory(path)) refuse("it is a folder; name a file in it");
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  if (!folder.empty() && !std::filesystem::is_directory(folder))
-    refuse(fmt::format("there is no folder '{}'; create it first", folder));
-  if (!std::filesystem::exists(path) && ::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)
-    refuse("you may not write into its folder");
+  if (std::filesystem::is_directory(path)) refuse("it is a folder, not the name of a file in one");
+  const std::string parent = std::filesystem::path(path).parent_path().string();
+  const std::string folder = parent.empty() ? "." : parent;
+  if (!std::filesystem::is_directory(folder))
+    refuse(fmt::format("there is no folder '{0}'; make it (mkdir -p '{0}')", folder));
+  const bool is_new = !std::filesystem::exists(path);
+  if (::access(is_new ? folder.c_str() : path.c_str(), is_new ? W_OK | X_OK : W_OK) != 0)
+    refuse(fmt::format("{}; allow writing there (chmod u+w)", std::strerror(errno)));
 }
 
 void ResultFiles::write(const std::string& path) {

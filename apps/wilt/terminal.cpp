@@ -1,21 +1,26 @@
 #include "terminal.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+
+#include "interrupts.hpp"
+#include "wilt/core/error.hpp"
+#include "wilt/core/printable.hpp"
 
 namespace wilt::cli {
 namespace {
 
-// The one piece of global state: a signal handler can reach nothing else.
-volatile std::sig_atomic_t interrupt_requested = 0;
-
-extern "C" void on_interrupt(int) {
-  interrupt_requested = 1;
+// A message that nobody can be given is not worth an error.
+void print_message(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
 bool wants_colour(Colour colour) {
@@ -28,13 +33,21 @@ constexpr int kBarWidth = 24;
 
 }  // namespace
 
-void catch_interrupts() {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+void guard_standard_streams() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    // Opened the wrong way round, so that whoever uses it is told. It takes the lowest number that is free.
+    if (::fcntl(descriptor, F_GETFD) < 0 && errno == EBADF)
+      static_cast<void>(::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+  }
 }
 
-bool interrupted() {
-  return interrupt_requested != 0;
+void print_data(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
+  throw Error(ErrorCode::output,
+              fmt::format("cannot write to the standard output: {}; send it elsewhere (> FILE)",
+                          std::strerror(errno)));
 }
 
 Terminal::Terminal(const GlobalOptions& options)
@@ -54,7 +67,7 @@ std::string Terminal::paint(std::string_view text, const char* code) const {
 void Terminal::say(std::string_view message) {
   if (quiet_) return;
   clear_bar();
-  fmt::print(stderr, "{}\n", message);
+  print_message(fmt::format("{}\n", printable(message)));
 }
 
 void Terminal::detail(std::string_view message) {
@@ -63,12 +76,12 @@ void Terminal::detail(std::string_view message) {
 
 void Terminal::warn(std::string_view message) {
   clear_bar();
-  fmt::print(stderr, "{} {}\n", paint("warning:", "33"), message);
+  print_message(fmt::format("{} {}\n", paint("warning:", "33"), printable(message)));
 }
 
 void Terminal::error(std::string_view message) {
   clear_bar();
-  fmt::print(stderr, "{} {}\n", paint("error:", "31"), message);
+  print_message(fmt::format("{} {}\n", paint("error:", "31"), printable(message)));
 }
 
 Monitor Terminal::monitor() {
@@ -83,7 +96,7 @@ Monitor Terminal::monitor() {
 
 void Terminal::clear_bar() {
   if (!bar_shown_) return;
-  fmt::print(stderr, "\r\033[K");
+  print_message("\r\033[K");
   bar_shown_ = false;
 }
 
@@ -101,8 +114,8 @@ void Terminal::draw_bar(std::string_view stage, double fraction) {
   const int filled = static_cast<int>(f * kBarWidth);
   const std::string left =
       f > 0.02 && elapsed > 0.5 ? fmt::format("{:.0f} s left", elapsed * (1.0 - f) / f) : "";
-  fmt::print(stderr, "\r\033[K{:<12} [{}{}] {:3.0f} %  {}", stage, std::string(filled, '='),
-             std::string(kBarWidth - filled, ' '), 100.0 * f, left);
+  print_message(fmt::format("\r\033[K{:<12} [{}{}] {:3.0f} %  {}", stage, std::string(filled, '='),
+                            std::string(kBarWidth - filled, ' '), 100.0 * f, left));
   std::fflush(stderr);
   bar_shown_ = true;
 }

@@ -47,9 +47,11 @@ class Terminal {
   Clock::time_point stage_start_, last_drawn_;
 };
 
-/// From now on Ctrl-C (SIGINT) and SIGTERM ask the running computation to stop instead of killing the
-/// program.
-void catch_interrupts();
-bool interrupted();
+/// To be called first. A standard stream that is closed stays so (no file that is opened later takes its
+/// number), and a write that cannot be done is told to the writer instead of ending the program.
+void guard_standard_streams();
+
+/// Data for stdout, all of it. Throws Error{output} when stdout takes no more.
+void print_data(std::string_view text);
 
 }  // namespace wilt::cli

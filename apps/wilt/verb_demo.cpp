@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "interrupts.hpp"
 #include "run.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
@@ -22,8 +23,8 @@ void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    throw Error(ErrorCode::output,
-                fmt::format("cannot create the folder '{}': {}", folder.string(), error.message()));
+    throw Error(ErrorCode::output, fmt::format("cannot write into '{}': {}; choose another folder",
+                                               folder.string(), error.message()));
 }
 
 // Four stages from fresh to dry.
@@ -38,7 +39,6 @@ void run(const std::string& folder_name, const GlobalOptions& options) {
   const std::filesystem::path folder(folder_name);
   make_folder(folder);
   Terminal terminal(options);
-  catch_interrupts();
   LeafRequest request;
   request.leaf = "maple";
   request.vertices = 4000;
@@ -46,6 +46,7 @@ void run(const std::string& folder_name, const GlobalOptions& options) {
   config.vertices = *request.vertices;
   WitheredLeaf withered = wither(request, config, terminal);
   if (withered.result.interrupted) throw Error(ErrorCode::interrupted, "interrupted; nothing was written");
+  end_on_interrupt();
 
   const std::string clip = (folder / "maple.glb").string(), picture = (folder / "maple.png").string(),
                     sheet = (folder / "stages.png").string(), report = (folder / "report.json").string();
@@ -54,17 +55,17 @@ void run(const std::string& folder_name, const GlobalOptions& options) {
   write_file(report, report_of(withered));
   files.write(picture);
   write_image(sheet, stages(files));
-  fmt::print(
-      "A maple leaf has withered.\n"
-      "  {:<34} plays in Blender (File > Import > glTF) and three.js\n"
-      "  {:<34} what it looks like now\n"
-      "  {:<34} from fresh to dry\n"
-      "  {:<34} steps and figures\n"
-      "\n"
-      "Next, your own:\n"
-      "  wilt simulate grape -o grape.glb\n"
-      "  wilt simulate drawing.svg -o mine.glb\n",
-      clip, picture, sheet, report);
+  print_data(
+      fmt::format("A maple leaf has withered.\n"
+                  "  {:<34} plays in Blender (File > Import > glTF) and three.js\n"
+                  "  {:<34} what it looks like now\n"
+                  "  {:<34} from fresh to dry\n"
+                  "  {:<34} steps and figures\n"
+                  "\n"
+                  "Next, your own:\n"
+                  "  wilt simulate grape -o grape.glb\n"
+                  "  wilt simulate drawing.svg -o mine.glb\n",
+                  clip, picture, sheet, report));
 }
 
 }  // namespace

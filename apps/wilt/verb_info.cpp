@@ -105,15 +105,17 @@ std::string plain(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-void print_text(const Json& json) {
+std::string text_of(const Json& json) {
+  std::string text;
   for (const auto& [key, value] : json.items()) {
     if (key == "config" || key == "iterations") continue;
     if (value.is_array()) {
-      for (const Json& item : value) fmt::print("{:<16}{}\n", key, plain(item));
+      for (const Json& item : value) text += fmt::format("{:<16}{}\n", key, plain(item));
     } else {
-      fmt::print("{:<16}{}\n", key, plain(value));
+      text += fmt::format("{:<16}{}\n", key, plain(value));
     }
   }
+  return text;
 }
 
 bool is_wilt_result(const std::string& path) {
@@ -134,15 +136,14 @@ Json describe(const std::string& path, const Monitor& monitor) {
 }
 
 void run(const std::string& path, const GlobalOptions& options) {
-  if (!std::filesystem::exists(path))
-    throw Error(ErrorCode::input, fmt::format("there is no file '{}'", path));
+  std::error_code unknown;  // of a symbolic link to itself, say
+  if (!std::filesystem::exists(path, unknown))
+    throw Error(ErrorCode::input, fmt::format("there is no file '{}'; check the path", path));
+  if (!std::filesystem::is_regular_file(path))
+    throw Error(ErrorCode::input, fmt::format("'{}' is a folder, a pipe or a device; give a file", path));
   Terminal terminal(options);
   const Json json = describe(path, terminal.monitor());
-  if (options.json) {
-    fmt::print("{}\n", json.dump(2));
-  } else {
-    print_text(json);
-  }
+  print_data(options.json ? json.dump(2) + "\n" : text_of(json));
 }
 
 }  // namespace
@@ -155,7 +156,8 @@ void add_info(CLI::App& app, const GlobalOptions& options) {
                                       "  wilt info maple.glb\n"
                                       "  wilt info drawing.svg --json\n");
   verb->add_option("FILE", *path, "A result (.glb .usda .pvd .vtu .pc2 .mdd), a mesh or an outline")
-      ->required();
+      ->required()
+      ->type_name("FILE");
   verb->callback([path, &options] { run(*path, options); });
 }
 

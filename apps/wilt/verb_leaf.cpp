@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "load_leaf.hpp"
+#include "plan.hpp"
+#include "result_formats.hpp"
 #include "run.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
@@ -27,6 +29,7 @@ namespace {
 struct Request {
   LeafRequest leaf;
   std::string output;
+  bool dry_run = false;
 };
 
 // The files carry the fresh texture, whose veins have to be found; a blade where there are none is of one
@@ -61,9 +64,15 @@ void run(const Request& request, const GlobalOptions& options) {
                 fmt::format("cannot write '{}': a leaf is .glb or .obj", request.output));
   if (request.output.empty() && !options.json)
     throw Error(ErrorCode::configuration, "nothing would be written; add -o leaf.glb");
-  check_writable(request.output);
+  const std::vector<std::string> outputs(request.output.empty() ? 0 : 1, request.output);
+  check_results(outputs, {}, 1);
   Terminal terminal(options);
-  catch_interrupts();
+  if (request.dry_run) {
+    const int vertices = planned_vertices(request.leaf, terminal.monitor());
+    return print_plan(fmt::format("mesh {}: {} vertices", request.leaf.leaf, vertices),
+                      {{"leaf", request.leaf.leaf}, {"vertices", vertices}}, result_files(outputs, 1),
+                      options);
+  }
   const Leaf leaf = load_leaf(request.leaf, terminal.monitor());
   const double angle = smallest_angle(leaf.mesh, leaf.positions) * 180.0 / std::numbers::pi;
   terminal.say(fmt::format("{}: {} vertices, {} faces, {:.0f} mm, smallest angle {:.0f} degrees", leaf.name,
@@ -82,7 +91,7 @@ void run(const Request& request, const GlobalOptions& options) {
                                        {"smallest_angle_deg", angle},
                                        {"petiole_vertex", static_cast<int>(leaf.petiole)},
                                        {"notes", leaf.notes}};
-  fmt::print("{}\n", json.dump(2));
+  print_data(json.dump(2) + "\n");
 }
 
 }  // namespace
@@ -102,6 +111,7 @@ void add_leaf(CLI::App& app, const GlobalOptions& options) {
                          "  wilt leaf ragged.ply --scan -o leaf.glb             a scanned mesh\n");
   add_leaf_options(*verb, request->leaf);
   verb->add_option("-o,--output", request->output, ".glb or .obj")->type_name("FILE");
+  add_dry_run(*verb, request->dry_run);
   verb->callback([request, &options] {
     for_each_leaf(request->leaf, [&](const LeafRequest& leaf, const auto& name) {
       Request one = *request;

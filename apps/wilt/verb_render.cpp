@@ -1,7 +1,6 @@
 // wilt render: pictures, contact sheets and films of a result.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -10,6 +9,8 @@
 #include <optional>
 
 #include "arguments.hpp"
+#include "checks.hpp"
+#include "plan.hpp"
 #include "run.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
@@ -32,9 +33,12 @@ struct Request {
   std::optional<int> frame, samples, columns, frames, fps;
   int threads = 0;
   std::uint64_t seed = 1;
+  bool dry_run = false;
 };
 
 enum class Kind { picture, sheet, movie };
+constexpr const char* kKinds[] = {"picture", "sheet", "film"};
+constexpr const char* kMade[] = {"a picture", "a contact sheet", "a film"};
 
 Kind kind_of(const Request& request) {
   if (MovieWriter::is_movie(request.output)) return Kind::movie;
@@ -63,7 +67,6 @@ void set_size(PictureOptions& picture, const Request& request, Kind kind) {
 
 // An option that means nothing for what is made is a mistake of the caller.
 void check_options(const Request& request, Kind kind) {
-  static constexpr const char* kMade[] = {"a picture", "a contact sheet", "a film"};
   const auto refuse_unless = [&](bool fits, bool given, const char* option) {
     if (given && !fits)
       throw Error(ErrorCode::configuration,
@@ -141,9 +144,6 @@ double frame_at(const GlbFile& file, double time) {
 
 void movie(const GlbFile& file, const LeafScene& leaf, PictureOptions picture, const Request& request,
            const Monitor& monitor) {
-  if (file.times.size() < 2)
-    throw Error(ErrorCode::input,
-                fmt::format("'{}' does not move; a film needs two frames or more", request.file));
   const int fps = request.fps.value_or(kFps);
   MovieWriter writer(request.output, picture.width, picture.height, fps);
   picture.camera = camera_for(leaf, evenly(leaf.frames(), leaf.frames() - 1), picture);
@@ -151,6 +151,31 @@ void movie(const GlbFile& file, const LeafScene& leaf, PictureOptions picture, c
   for (int i = 0; i < count; ++i)
     writer.add(render(leaf.at(frame_at(file, double(i) / fps)), picture, part_of(monitor, i, count)));
   writer.finish();
+}
+
+// Throws unless the file has the frames that are asked for.
+void check_frames(const Request& request, Kind kind, int frames) {
+  if (kind == Kind::movie && frames < 2)
+    throw Error(ErrorCode::input,
+                fmt::format("'{}' does not move; a film needs two frames or more", request.file));
+  if (const int frame = request.frame.value_or(0); frame >= frames)
+    throw Error(ErrorCode::configuration,
+                fmt::format("--frame is {}; '{}' has the frames 0 to {}", frame, request.file, frames - 1));
+}
+
+void plan(const Request& request, Kind kind, const PictureOptions& picture, int frames,
+          const GlobalOptions& options) {
+  if (kind == Kind::movie)
+    const MovieWriter can_be_made(request.output, picture.width, picture.height, request.fps.value_or(kFps));
+  print_plan(fmt::format("make {} of {}: {} frames, {} samples per pixel", kMade[int(kind)], request.file,
+                         frames, picture.samples),
+             {{"result", request.file},
+              {"kind", kKinds[int(kind)]},
+              {"frames", frames},
+              {"width", picture.width},
+              {"height", picture.height},
+              {"samples", picture.samples}},
+             {request.output}, options);
 }
 
 void run(const Request& request, const GlobalOptions& options) {
@@ -161,27 +186,22 @@ void run(const Request& request, const GlobalOptions& options) {
   check_writable(request.output);
   const ThreadLimit limit(request.threads);
   Terminal terminal(options);
-  catch_interrupts();
   const GlbFile file = read_glb(request.file);
   const LeafScene leaf(file);
+  check_frames(request, kind, leaf.frames());
+  if (request.dry_run) return plan(request, kind, picture, leaf.frames(), options);
   if (kind == Kind::movie) {
     movie(file, leaf, picture, request, terminal.monitor());
   } else if (kind == Kind::sheet) {
     write_image(request.output, sheet(leaf, picture, request, terminal.monitor()));
   } else {
     const int frame = request.frame.value_or(leaf.frames() - 1);
-    if (frame < 0 || frame >= leaf.frames())
-      throw Error(ErrorCode::configuration, fmt::format("--frame is {}; '{}' has the frames 0 to {}", frame,
-                                                        request.file, leaf.frames() - 1));
     write_image(request.output, render(leaf.at(frame), picture, terminal.monitor()));
   }
   terminal.say("wrote " + request.output);
   if (options.json) {
-    const nlohmann::ordered_json json = {{"file", request.output},
-                                         {"kind", kind == Kind::movie   ? "film"
-                                                  : kind == Kind::sheet ? "sheet"
-                                                                        : "picture"}};
-    fmt::print("{}\n", json.dump(2));
+    const nlohmann::ordered_json json = {{"file", request.output}, {"kind", kKinds[int(kind)]}};
+    print_data(json.dump(2) + "\n");
   }
 }
 
@@ -198,7 +218,7 @@ void add_render(CLI::App& app, const GlobalOptions& options) {
                          "  wilt render maple.glb -o sheet.png --columns 6 --frames 12\n"
                          "  wilt render maple.glb -o maple.mp4\n"
                          "  wilt render maple.glb -o top.png --view -90,90 --frame 0\n");
-  verb->add_option("FILE", request->file, "A .glb that wilt wrote")->required()->type_name("");
+  verb->add_option("FILE", request->file, "A .glb that wilt wrote")->required()->type_name("FILE");
   verb->add_option(
           "-o,--output", request->output,
           "Picture (.png .jpg), contact sheet (its name ends in sheet.png, or --columns\nor --frames is "
@@ -206,32 +226,35 @@ void add_render(CLI::App& app, const GlobalOptions& options) {
           "(.mp4 .webm .gif)")
       ->required()
       ->type_name("FILE");
-  verb->add_option("--frame", request->frame, "Frame of the picture, from 0 (the last)")->type_name("N");
+  verb->add_option("--frame", request->frame, "Frame of the picture, from 0 (the last)")
+      ->check(whole_number(0, 1000000))
+      ->type_name("N");
   verb->add_option("--size", request->size,
                    "Of a picture (960x720), of each in a sheet (480x360), of a film (640x480)")
       ->type_name("WxH");
   verb->add_option("--samples", request->samples, "Per pixel at most (64; 256 for a fine still)")
-      ->check(CLI::Range(1, 65536))
+      ->check(whole_number(1, 65536))
       ->type_name("N");
   verb->add_option("--columns", request->columns, "Of a sheet (4)")
-      ->check(CLI::Range(1, 1000))
+      ->check(whole_number(1, 1000))
       ->type_name("N");
   verb->add_option("--frames", request->frames, "Pictures in a sheet (12, or all when fewer)")
-      ->check(CLI::Range(1, 100000))
+      ->check(whole_number(1, 100000))
       ->type_name("N");
   verb->add_option("--fps", request->fps, "Pictures a second of a film (25)")
-      ->check(CLI::Range(1, 120))
+      ->check(whole_number(1, 120))
       ->type_name("N");
   verb->add_option("--view", request->view,
                    "Camera, degrees: around (-90 looks to the apex) and above (-75,45)")
       ->type_name("A,E");
   verb->add_option("--sun", request->sun, "Sun, degrees: around and above (146,38)")->type_name("A,E");
   verb->add_option("--seed", request->seed, "Of the samples (1)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(whole_number(0, kMostSeed))
       ->type_name("N");
   verb->add_option("--threads", request->threads, "At most so many (all)")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_number(1, 1024))
       ->type_name("N");
+  add_dry_run(*verb, request->dry_run);
   verb->callback([request, &options] { run(*request, options); });
 }
 

@@ -1,21 +1,29 @@
 // wilt simulate: a leaf in, a withered leaf out.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "checks.hpp"
+#include "interrupts.hpp"
+#include "plan.hpp"
 #include "result_formats.hpp"
 #include "run.hpp"
+#include "settings_list.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/core/file.hpp"
 #include "wilt/core/nearest.hpp"
 #include "wilt/core/parallel.hpp"
+#include "wilt/simulation/deformation_model.hpp"
+#include "writing.hpp"
 
 namespace wilt::cli {
 namespace {
+
+constexpr std::uint64_t kLargestConfig = std::uint64_t{1} << 20;  // bytes
 
 struct Request {
   LeafRequest leaf;
@@ -25,12 +33,19 @@ struct Request {
   FileOptions files;
   CheckpointOptions checkpoint;
   int threads = 0;
-  bool print_config = false;
+  bool print_config = false, dry_run = false;
 };
+
+// What --set may begin with.
+std::vector<std::string> assignments() {
+  std::vector<std::string> words;
+  for (const Setting& setting : settings()) words.push_back(setting.key + "=");
+  return words;
+}
 
 // Defaults of the species, then the file, then the options, then --set: the later wins.
 Config resolve_config(Request& request, bool seed_given) {
-  const std::string file = request.config_file.empty() ? "" : read_file(request.config_file);
+  const std::string file = request.config_file.empty() ? "" : read_file(request.config_file, kLargestConfig);
   std::string preset = is_species(request.leaf.leaf) ? request.leaf.leaf : "generic";
   if (const std::string named = species_in_toml(file, request.config_file); !named.empty()) preset = named;
   for (const std::string& assignment : request.assignments) {
@@ -73,36 +88,51 @@ void summarise(const WitheredLeaf& withered, Terminal& terminal) {
                   t.leaf, t.geodesics, t.embedding, t.venation, t.simulation, t.output));
 }
 
-void check_outputs(const Request& request, int frames) {
-  std::vector<std::string> figures;
+// The files that are not results.
+std::vector<std::string> figures(const Request& request) {
+  std::vector<std::string> paths;
   for (const std::string& path : {request.report, request.forces, request.checkpoint.file}) {
-    if (!path.empty()) figures.push_back(path);
+    if (!path.empty()) paths.push_back(path);
   }
-  check_results(request.outputs, figures, frames);
+  return paths;
 }
 
-void write_all(const Request& request, WitheredLeaf& withered, Terminal& terminal) {
+void plan(const Request& request, const Config& config, const GlobalOptions& options, Terminal& terminal) {
+  const Checkpoints can_be_used(request.checkpoint, terminal);
+  const int vertices = planned_vertices(request.leaf, terminal.monitor());
+  const nlohmann::ordered_json facts = {{"leaf", request.leaf.leaf},
+                                        {"species", config.species},
+                                        {"vertices", vertices},
+                                        {"model", config.model},
+                                        {"iterations", config.iterations},
+                                        {"frames", std::min(config.frames, config.iterations + 1)}};
+  std::vector<std::string> files = result_files(request.outputs, static_cast<int>(config.frames));
+  for (const std::string& path : figures(request)) files.push_back(path);
+  print_plan(
+      fmt::format("wither {}: {} vertices, {} iterations of the model '{}', {} frames", request.leaf.leaf,
+                  vertices, config.iterations, config.model, facts["frames"].get<int>()),
+      facts, files, options);
+}
+
+// Returns what kept it from writing all of them.
+std::optional<Error> write_all(const Request& request, WitheredLeaf& withered, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
+  if (withered.result.interrupted) go_on_after_interrupt();
   ResultFiles files(withered, terminal, request.files);
-  for (const std::string& path : request.outputs) {
-    files.write(path);
-    terminal.say("wrote " + path);
-  }
-  if (!request.forces.empty()) {
-    write_file(request.forces, forces_csv(withered.result));
-    terminal.say("wrote " + request.forces);
-  }
+  Writing writing(terminal);
+  for (const std::string& output : request.outputs)
+    writing.file(output, [&](const std::string& path) { files.write(path); });
+  writing.file(request.forces,
+               [&](const std::string& path) { write_file(path, forces_csv(withered.result)); });
   withered.timings.output = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!request.report.empty()) {
-    write_file(request.report, report_of(withered));
-    terminal.say("wrote " + request.report);
-  }
+  writing.file(request.report, [&](const std::string& path) { write_file(path, report_of(withered)); });
+  return writing.failure();
 }
 
 void run(Request& request, bool seed_given, const GlobalOptions& options) {
   const Config config = resolve_config(request, seed_given);
   if (request.print_config) {
-    fmt::print("{}", options.json ? to_json(config) + "\n" : to_toml(config, true));
+    print_data(options.json ? settings_json(config) : to_toml(config, true));
     return;
   }
   if (request.leaf.leaf.empty())
@@ -111,19 +141,26 @@ void run(Request& request, bool seed_given, const GlobalOptions& options) {
     throw Error(ErrorCode::configuration,
                 fmt::format("nothing would be written; add -o {}.glb",
                             std::filesystem::path(request.leaf.leaf).stem().string()));
-  check_outputs(request, static_cast<int>(config.frames));
+  check_results(request.outputs, figures(request), static_cast<int>(config.frames));
   const ThreadLimit limit(request.threads);
   Terminal terminal(options);
-  catch_interrupts();
+  if (request.dry_run) return plan(request, config, options, terminal);
   WitheredLeaf withered = wither(request.leaf, config, terminal, request.checkpoint);
-  write_all(request, withered, terminal);
+  const std::optional<Error> unwritten = write_all(request, withered, terminal);
   summarise(withered, terminal);
-  if (options.json) fmt::print("{}\n", report_of(withered));
-  if (withered.result.completed) return;
-  std::string message = withered.result.stop_reason + "; what was computed until then was written";
-  if (withered.result.interrupted && !request.checkpoint.file.empty())
+  if (options.json) print_data(report_of(withered) + "\n");
+  const SimulationResult& result = withered.result;
+  if (result.completed) {
+    if (unwritten) throw *unwritten;
+    return;
+  }
+  if (unwritten) throw Error(unwritten->code(), fmt::format("{}; {}", result.stop_reason, unwritten->what()));
+  std::string message = result.stop_reason + "; what was computed until then was written";
+  if (result.interrupted && !request.checkpoint.file.empty())
     message += "; the same command with --resume goes on";
-  throw Error(withered.result.interrupted ? ErrorCode::interrupted : ErrorCode::simulation, message);
+  if (!result.interrupted)
+    message += fmt::format("; try a smaller time step (--set dt={}) or milder settings", config.dt / 2);
+  throw Error(result.interrupted ? ErrorCode::interrupted : ErrorCode::simulation, message);
 }
 
 }  // namespace
@@ -155,27 +192,35 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
                    "Result; repeatable. By the end of its name:" + result_formats_help())
       ->type_name("FILE")
       ->allow_extra_args(false);
-  verb->add_option("--iterations", request->iterations, "Time steps (100)")->type_name("N");
-  verb->add_option("--frames", request->frames, "Frames in the clip (26)")->type_name("N");
+  verb->add_option("--iterations", request->iterations, "Time steps (100)")
+      ->check(whole_number(0, 1000000))
+      ->type_name("N");
+  verb->add_option("--frames", request->frames, "Frames in the clip (26)")
+      ->check(whole_number(2, 100000))
+      ->type_name("N");
   verb->add_option("--max-morphs", request->files.max_morphs,
                    "Frames in a .glb (all): those whose playback misses the least")
       ->type_name("N")
-      ->check(CLI::Range(2, 100000));
+      ->check(whole_number(2, 100000));
   verb->add_option("--lods", request->files.lods, "Coarser meshes beside a .vat.json (0)")
       ->type_name("N")
-      ->check(CLI::Range(0, 8));
+      ->check(whole_number(0, 8));
   verb->add_option_function<std::string>(
           "--vat", [request](const std::string& kind) { request->files.vat_png = kind == "png"; },
           "Textures of a .vat.json: exr (half floats) or png (16 bits)")
       ->type_name("KIND")
-      ->check(CLI::IsMember({"exr", "png"}));
-  verb->add_option("--model", request->model, "cell (default) or paper")->type_name("NAME");
+      ->check(one_of({"exr", "png"}));
+  verb->add_option("--model", request->model, "cell (default) or paper")
+      ->check(one_of(model_names()))
+      ->type_name("NAME");
   verb->add_option("--config", request->config_file, "Settings from a TOML file")->type_name("FILE");
   verb->add_option("--set", request->assignments, "One setting; repeatable, wins over --config")
+      ->check(offers(assignments()))
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   verb->add_flag("--print-config", request->print_config,
                  "List the settings with unit, default and range, and stop");
+  add_dry_run(*verb, request->dry_run);
   verb->add_option("--report", request->report, "Steps, metrics, timings as JSON")->type_name("FILE");
   verb->add_option("--forces", request->forces, "Forces by region and iteration as CSV")->type_name("FILE");
   verb->add_option("--checkpoint", request->checkpoint.file,
@@ -185,10 +230,10 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
                  "Go on from --checkpoint; results are as if never left");
   verb->add_option("--checkpoint-every", request->checkpoint.every, "Seconds between checkpoints (10)")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 86400.0));
+      ->check(number(0.0, 86400.0));
   verb->add_option("--threads", request->threads, "Threads at most (all); results do not depend on it")
       ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+      ->check(whole_number(0, 1024));
   verb->callback([request, seed, &options] {
     for_each_leaf(request->leaf, [&](const LeafRequest& leaf, const auto& name) {
       Request one = *request;

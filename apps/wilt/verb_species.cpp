@@ -25,22 +25,24 @@ nlohmann::ordered_json to_json(const Species& s) {
           {"shrinkage", p.shrinkage}};
 }
 
-void print_table() {
-  fmt::print("{:<8} {:<22} {:<18} {:>7}  {:>11}  {:>7} {:>7} {:>5} {:>5}\n", "name", "botanical", "common",
-             "length", "mass", "K", "w_loss", "K_r", "s");
+std::string table() {
+  std::string text = fmt::format("{:<8} {:<22} {:<18} {:>7}  {:>11}  {:>7} {:>7} {:>5} {:>5}\n", "name",
+                                 "botanical", "common", "length", "mass", "K", "w_loss", "K_r", "s");
   for (const std::string& name : species_names()) {
     const Species& s = species(name);
     const Physiology& p = s.physiology;
-    fmt::print("{:<8} {:<22} {:<18} {:>4.0f} mm  {:.2f} - {:.2f}  {:>7.4f} {:>7.3f} {:>5.1f} {:>5.1f}\n",
-               s.name, s.botanical, s.common, 1e3 * s.length, p.mass_min, p.mass_max, p.leaf_parameter,
-               p.dehydration_rate, p.force_range, p.shrinkage);
+    text +=
+        fmt::format("{:<8} {:<22} {:<18} {:>4.0f} mm  {:.2f} - {:.2f}  {:>7.4f} {:>7.3f} {:>5.1f} {:>5.1f}\n",
+                    s.name, s.botanical, s.common, 1e3 * s.length, p.mass_min, p.mass_max, p.leaf_parameter,
+                    p.dehydration_rate, p.force_range, p.shrinkage);
   }
-  fmt::print(
-      "\nmass: m_min - m_max of a cell; K: leaf parameter; w_loss: dehydration rate; K_r: range of the "
-      "external\n"
-      "force (Table 1 of the paper); s: amount of differential shrinkage.\n"
-      "Next: wilt simulate {} -o {}.glb\n",
-      species_names().front(), species_names().front());
+  return text + fmt::format(
+                    "\nmass: m_min - m_max of a cell; K: leaf parameter; w_loss: dehydration rate; K_r: "
+                    "range of the "
+                    "external\n"
+                    "force (Table 1 of the paper); s: amount of differential shrinkage.\n"
+                    "Next: wilt simulate {} -o {}.glb\n",
+                    species_names().front(), species_names().front());
 }
 
 }  // namespace
@@ -52,10 +54,10 @@ void add_species(CLI::App& app, const GlobalOptions& options) {
                                       "  wilt species\n"
                                       "  wilt species --json\n");
   verb->callback([&options] {
-    if (!options.json) return print_table();
+    if (!options.json) return print_data(table());
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
     for (const std::string& name : species_names()) all.push_back(to_json(species(name)));
-    fmt::print("{}\n", all.dump(2));
+    print_data(all.dump(2) + "\n");
   });
 }
 

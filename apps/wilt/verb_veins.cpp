@@ -4,8 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "load_leaf.hpp"
+#include "plan.hpp"
 #include "run.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
@@ -18,6 +20,7 @@ namespace {
 struct Request {
   LeafRequest leaf;
   std::vector<std::string> outputs;
+  bool dry_run = false;
 };
 
 using Writer = std::string (*)(const Leaf&, const Venation&);
@@ -40,8 +43,12 @@ void run(const Request& request, const GlobalOptions& options) {
     check_writable(path);
   }
   Terminal terminal(options);
-  catch_interrupts();
   const Monitor monitor = terminal.monitor();
+  if (request.dry_run) {
+    const int vertices = planned_vertices(request.leaf, monitor);
+    return print_plan(fmt::format("find the veins of {}: {} vertices", request.leaf.leaf, vertices),
+                      {{"leaf", request.leaf.leaf}, {"vertices", vertices}}, request.outputs, options);
+  }
   const Leaf leaf = load_leaf(request.leaf, monitor);
   const Venation venation = load_veins(request.leaf, leaf, species(leaf.species).secondary, {}, monitor);
   terminal.say(fmt::format("{}: {} tips, {} veins", leaf.name, venation.tips.size(), venation.veins.size()));
@@ -49,7 +56,7 @@ void run(const Request& request, const GlobalOptions& options) {
     write_file(path, writer_for(path)(leaf, venation));
     terminal.say("wrote " + path);
   }
-  if (options.json) fmt::print("{}\n", veins_json(leaf, venation));
+  if (options.json) print_data(veins_json(leaf, venation) + "\n");
 }
 
 }  // namespace
@@ -68,6 +75,7 @@ void add_veins(CLI::App& app, const GlobalOptions& options) {
   verb->add_option("-o,--output", request->outputs, ".json, .svg or .obj; repeatable")
       ->type_name("FILE")
       ->allow_extra_args(false);
+  add_dry_run(*verb, request->dry_run);
   verb->callback([request, &options] {
     for_each_leaf(request->leaf, [&](const LeafRequest& leaf, const auto& name) {
       Request one = *request;

@@ -15,6 +15,8 @@ import time
 import unittest
 import zlib
 
+import voice
+
 WILT = sys.argv.pop(1)
 
 
@@ -52,6 +54,7 @@ class CommandLine(unittest.TestCase):
         result = wilt(*arguments, **options)
         self.assertEqual(result.returncode, code, result.stderr)
         self.assertIn(says, result.stderr)
+        self.assertEqual(voice.faults(result.stderr), [])
         return result
 
     def test_help_shows_examples_first_and_goes_to_stdout(self):
@@ -96,7 +99,7 @@ class CommandLine(unittest.TestCase):
         self.expect(2, "leaf", photo, "--mm-per-unit", 2, "-o", self.dir / "leaf.obj", says="goes with a scan")
 
     def test_what_cannot_be_written_exits_5_before_the_work(self):
-        self.expect(5, "simulate", "maple", "-o", self.dir / "missing" / "m.glb", says="create it first")
+        self.expect(5, "simulate", "maple", "-o", self.dir / "missing" / "m.glb", says="mkdir -p")
         self.assertEqual(list(self.dir.iterdir()), [])
 
     def test_json_on_stdout_and_messages_on_stderr(self):

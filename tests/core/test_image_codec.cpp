@@ -46,5 +46,20 @@ TEST(ImageCodec, RefusesWhatIsNoPicture) {
   EXPECT_THROW(encode_jpeg({4, 4, {1, 2, 3}}), std::logic_error);
 }
 
+// Past fault: stb_image writes beyond its tables for a JPEG that states more codes than there can be.
+// Metadata and what follows the image may hold anything. Oracle: the pixels without it.
+TEST(ImageCodec, RefusesJpegTablesThatAreTooLong) {
+  const std::string bytes = encode_jpeg(gradient(32, 32)), start = bytes.substr(0, 2), rest = bytes.substr(2);
+  const std::string counts = "\x10" + std::string(2, '\xff') + std::string(14, '\0');
+  const std::string table = std::string("\xff\xc4\x02\x11", 4) + counts + std::string(510, '\1');
+  EXPECT_THROW(decode_image(start + table + rest), Error);
+  EXPECT_THROW(decode_image(start + "\xff" + table + rest), Error);
+  EXPECT_THROW(decode_image(bytes.substr(0, bytes.size() - 2) + table), Error);
+  EXPECT_THROW(decode_image("\xff" + start + table + rest), Error);
+  EXPECT_THROW(decode_image(start + std::string("\xff\xc4\0\3", 4) + counts + rest), Error);
+  const std::string comment = std::string("\xff\xfe\x02\x15", 4) + table;
+  EXPECT_EQ(decode_image(start + comment + rest + table).rgb, decode_image(bytes).rgb);
+}
+
 }  // namespace
 }  // namespace wilt

@@ -201,5 +201,28 @@ TEST_F(SvgOutline, RefusesWhatIsNoDrawingOfALeaf) {
             std::string::npos);
 }
 
+// Negative: what stands in a file of 1 MB may be 101 MB of shapes, or nested deeper than any stack.
+TEST_F(SvgOutline, RefusesWhatGrowsWithoutEnd) {
+  std::string data, copies, deep;
+  while (data.size() < 1'000'000) data += "M0,0h9v9z";
+  for (int i = 0; i < 101; ++i) copies += "<use href='#a'/>";
+  for (int i = 0; i < 200'000; ++i) deep += "<g>";
+  const auto message = [&](const std::string& text) { return refusal(write("x.svg", text)); };
+  EXPECT_NE(message(svg("<path id='a' d='" + data + "'/>" + copies)).find("more than 100 MB of shapes"),
+            std::string::npos);
+  for (int i = 0; i < 200'000; ++i) deep += "</g>";
+  EXPECT_NE(message(svg(deep)).find("no filled path"), std::string::npos);
+}
+
+// Past crash: svgpp looks up words of ASCII alone. A gradient may have any name.
+TEST_F(SvgOutline, TakesNoOtherLettersThanAsciiForWords) {
+  const auto message = [&](const std::string& text) { return refusal(write("x.svg", text)); };
+  EXPECT_NE(message(svg("<path d='M0,0 L9,9 \u00e9'/>")).find("path data"), std::string::npos);
+  EXPECT_NE(message(svg("<g transform='r\u00f6tate(3)'>" + lens("") + "</g>")).find("transform"),
+            std::string::npos);
+  EXPECT_GT(drawn_area(read(write("x.svg", svg(lens("fill='gr\u00fcn'"))), small())), 0.0);
+  EXPECT_GT(drawn_area(read(write("x.svg", svg(lens("fill='url(#gr\u00fcn)'"))), small())), 0.0);
+}
+
 }  // namespace
 }  // namespace wilt

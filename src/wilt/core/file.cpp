@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <random>
 #include <utility>
@@ -114,30 +115,58 @@ void write_in_place(const std::string& path, int descriptor, std::string_view by
   if (const int reason = output.close()) fail(path, reason);
 }
 
-// O_EXCL with a name that cannot be guessed: nobody can put a link there first. The mode lets umask act.
-int open_temporary(const std::string& folder, std::string* name) {
+// A name that cannot be guessed.
+std::string temporary_name(const std::string& folder) {
   std::random_device device;
-  for (int attempt = 0; attempt < 100; ++attempt) {
-    *name = fmt::format("{}/.wilt-{:08x}{:08x}.tmp", folder, device(), device());
-    const int descriptor = ::open(name->c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0 || errno != EEXIST) return descriptor;
-  }
+  return fmt::format("{}/.wilt-{:08x}{:08x}.tmp", folder, device(), device());
+}
+
+// A file without a name in the folder: should the program be killed, nothing is left. -1 where the system or
+// its file system has no such files.
+int open_unnamed([[maybe_unused]] const std::string& folder) {
+#ifdef O_TMPFILE
+  return ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+#else
   return -1;
+#endif
+}
+
+// Gives an unnamed file a name that nobody has; whether it could.
+bool give_name(int descriptor, const std::string& name) {
+  const std::string file = fmt::format("/proc/self/fd/{}", descriptor);
+  return ::linkat(AT_FDCWD, file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+}
+
+// Everything but the name.
+void fill(const Output& output, const std::string& path, std::optional<mode_t> mode, std::string_view bytes) {
+  if (mode && ::fchmod(output.descriptor(), *mode) != 0) fail(path, errno);
+  if (const int reason = output.write(bytes)) fail(path, reason);
+  if (::fsync(output.descriptor()) != 0) fail(path, errno);
+}
+
+void take_place(Output& output, const std::string& path, const std::string& target) {
+  if (const int reason = output.close()) fail(path, reason);
+  if (::rename(output.path().c_str(), target.c_str()) != 0) fail(path, errno);
+  output.kept();
 }
 
 void replace_file(const std::string& path, const std::string& target, std::optional<mode_t> mode,
                   std::string_view bytes) {
-  std::string name;
-  const int descriptor = open_temporary(folder_of(target), &name);
-  if (descriptor < 0) fail(path, errno);
-  Output output(name, descriptor);
+  const std::string name = temporary_name(folder_of(target));
+  if (const int descriptor = open_unnamed(folder_of(target)); descriptor >= 0) {
+    Output output(name, descriptor);
+    fill(output, path, mode, bytes);
+    if (give_name(descriptor, name)) {
+      output.mark_temporary();
+      return take_place(output, path, target);
+    }
+  }
+  // O_EXCL: nobody can have put a link there. The mode lets the umask act.
+  Output output(name, ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (!output.open()) fail(path, errno);
   output.mark_temporary();
-  if (mode && ::fchmod(descriptor, *mode) != 0) fail(path, errno);
-  if (const int reason = output.write(bytes)) fail(path, reason);
-  if (::fsync(descriptor) != 0) fail(path, errno);
-  if (const int reason = output.close()) fail(path, reason);
-  if (::rename(name.c_str(), target.c_str()) != 0) fail(path, errno);
-  output.kept();
+  fill(output, path, mode, bytes);
+  take_place(output, path, target);
 }
 
 }  // namespace
@@ -179,14 +208,19 @@ std::string read_file(const std::string& path, std::uint64_t most) {
   if (::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode))
     bytes.reserve(std::min<std::uint64_t>(most, static_cast<std::uint64_t>(status.st_size)));
   std::string block(std::size_t{1} << 16, '\0');
-  while (true) {
-    const ssize_t count = ::read(descriptor, block.data(), block.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail_reading(errno);
-    if (count == 0) return bytes;
-    bytes.append(block, 0, static_cast<std::size_t>(count));
-    if (bytes.size() > most) refuse(fmt::format("it is larger than {} bytes, the most that is read", most));
+  try {
+    while (true) {
+      const ssize_t count = ::read(descriptor, block.data(), block.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) fail_reading(errno);
+      if (count == 0) return bytes;
+      bytes.append(block, 0, static_cast<std::size_t>(count));
+      if (bytes.size() > most) refuse(fmt::format("it is larger than {} bytes, the most that is read", most));
+    }
+  } catch (const std::bad_alloc&) {
+    refuse(fmt::format("there is no memory for more than {} bytes of it", bytes.size()));
   }
+  return bytes;
 }
 
 }  // namespace wilt

@@ -9,11 +9,11 @@ namespace wilt {
 
 /// Writes `bytes` to the file `path`, whole or not at all.
 ///
-/// A regular file is written under an unpredictable name in the same folder, flushed to the disk and renamed,
-/// so that a reader sees the old file or the new one; an existing file keeps its permissions, a new one
-/// follows the umask; a symbolic link is followed. A pipe or a device is written in place, and so are
-/// /dev/stdout, /dev/stderr and /dev/fd/N. Throws Error{output} with the path, the reason and what to do;
-/// then no temporary file is left.
+/// A regular file is written without a name (where the file system can) in the same folder, flushed to the
+/// disk and renamed: a reader sees the old file or the new one, a program that is killed leaves nothing. An
+/// existing file keeps its permissions, a new one follows the umask; a symbolic link is followed. A pipe or a
+/// device is written in place; so are /dev/stdout, /dev/stderr and /dev/fd/N. Throws Error{output} with the
+/// path, the reason and what to do; then no temporary file is left.
 void write_file(const std::string& path, std::string_view bytes);
 
 /// The end of a file's name in lower case, with its dot: ".glb"; empty when it has none.

@@ -7,6 +7,7 @@
 
 #include "wilt/core/check.hpp"
 #include "wilt/core/error.hpp"
+#include "wilt/core/jpeg_tables.hpp"
 
 // Ours alone (static): other sources, and tinygltf, may hold theirs.
 #define STB_IMAGE_STATIC
@@ -30,6 +31,9 @@
 namespace wilt {
 namespace {
 
+// A file of some kilobytes may claim to be a picture of any size.
+constexpr std::int64_t kMostPixels = 250'000'000;
+
 // Collects what an encoder writes.
 void append(void* bytes, void* data, int size) {
   static_cast<std::string*>(bytes)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
@@ -47,17 +51,27 @@ void check_size(const Image& image) {
 }
 
 [[noreturn]] void cannot_decode() {
-  throw Error(ErrorCode::input,
-              fmt::format("the picture cannot be read: {}; give a PNG or a JPEG", stbi_failure_reason()));
+  const std::string_view reason = stbi_failure_reason();
+  throw Error(ErrorCode::input, fmt::format("the picture cannot be read ({}); give a PNG or a JPEG",
+                                            reason.empty() ? "it is damaged" : reason));
 }
 
 const stbi_uc* data_of(std::string_view bytes) {
   return reinterpret_cast<const stbi_uc*>(bytes.data());
 }
 
-void check_length(std::string_view bytes) {
+// How many channels a picture has; its size, which must be one that memory can be had for.
+int channels_of(std::string_view bytes, int& width, int& height) {
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     throw Error(ErrorCode::input, "the picture is larger than 2 GB");
+  int channels = 0;
+  if (!stbi_info_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &width, &height, &channels))
+    cannot_decode();
+  if (std::int64_t{width} * height > kMostPixels)
+    throw Error(ErrorCode::input,
+                fmt::format("the picture has {} x {} pixels; {} million are allowed: scale it down", width,
+                            height, kMostPixels / 1'000'000));
+  return channels;
 }
 
 struct FreePixels {
@@ -67,8 +81,8 @@ using Pixels = std::unique_ptr<stbi_uc, FreePixels>;
 
 // Rows of `channels` bytes a pixel.
 Pixels decode(std::string_view bytes, int channels, int& width, int& height) {
-  check_length(bytes);
-  int found = 0;
+  if (bytes.starts_with('\xff')) detail::check_jpeg_tables(bytes);
+  int found = channels_of(bytes, width, height);
   Pixels pixels(stbi_load_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &width, &height, &found,
                                       channels));
   if (!pixels) cannot_decode();
@@ -105,10 +119,8 @@ Image decode_image(std::string_view bytes) {
 }
 
 std::vector<std::uint8_t> decode_alpha(std::string_view bytes) {
-  int width = 0, height = 0, channels = 0;
-  check_length(bytes);
-  if (!stbi_info_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &width, &height, &channels))
-    cannot_decode();
+  int width = 0, height = 0;
+  const int channels = channels_of(bytes, width, height);
   if (channels != 2 && channels != 4) return {};
   const Pixels pixels = decode(bytes, 2, width, height);
   std::vector<std::uint8_t> alpha(std::size_t(width) * std::size_t(height));

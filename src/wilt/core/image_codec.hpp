@@ -17,7 +17,7 @@ std::string encode_jpeg(const Image& image, int quality = 95);
 std::string encode_png(const Image& image);
 
 /// Reads a PNG or a JPEG; an alpha channel is dropped. Throws Error{input} with the reason when it is
-/// neither, or damaged.
+/// neither, damaged, or of more than 250 million pixels.
 Image decode_image(std::string_view bytes);
 
 /// The opacity of a PNG's pixels, 255 opaque, row by row; empty when the picture has no alpha channel. Throws

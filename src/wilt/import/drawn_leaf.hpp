@@ -30,6 +30,9 @@ DrawnLeaf parse_json_outline(std::string_view text);
 /// that the drawing refers to is opened, and its XML entities are not expanded. Throws Error{input}.
 DrawnLeaf parse_svg_outline(std::string_view text, int nth);
 
+/// parse_svg_outline in a process of its own, with its limits (isolated.hpp).
+DrawnLeaf read_svg_outline(std::string_view text, int nth, const Monitor& monitor);
+
 /// Cuts off the stalk, finds the petiole, meshes, and places the leaf in its frame.
 Leaf leaf_from_outline(DrawnLeaf drawn, const std::string& name, const ReadOptions& options,
                        const Monitor& monitor);

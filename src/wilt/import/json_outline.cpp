@@ -6,6 +6,7 @@
 
 #include "wilt/core/error.hpp"
 #include "wilt/core/nearest.hpp"
+#include "wilt/core/printable.hpp"
 #include "wilt/import/drawn_leaf.hpp"
 
 namespace wilt::detail {
@@ -57,8 +58,7 @@ json parsed(std::string_view text) {
       return true;
     });
   } catch (const json::exception& error) {
-    const std::string_view reason = error.what();  // "[json.exception.parse_error.101] parse error at ..."
-    refuse(fmt::format("not JSON: {}", reason.substr(std::min(reason.find("] ") + 2, reason.size()))));
+    refuse(fmt::format("not JSON: {}", untagged(error.what())));
   }
 }
 

@@ -8,7 +8,9 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -17,11 +19,13 @@
 #include "wilt/core/error.hpp"
 #include "wilt/import/isolated.hpp"
 #include "wilt/import/mesh_folder.hpp"
+#include "wilt/import/packing.hpp"
 
 namespace wilt::detail {
 namespace {
 
-constexpr std::int64_t kMostMeshVertices = 50'000'000;
+constexpr std::int64_t kMostVertices = 50'000'000;
+const std::string kName = "leaf";  // what the library is told, with the extension
 
 struct Instance {
   const aiMesh* mesh;
@@ -91,84 +95,141 @@ void check_indices(const aiScene& scene) {
       for (unsigned k = 0; k < face.mNumIndices; ++k) {
         if (face.mIndices[k] >= mesh.mNumVertices)
           throw Error(ErrorCode::input,
-                      fmt::format("face {} has vertex {}, but there are {} (counted from 0)", f,
-                                  face.mIndices[k], mesh.mNumVertices));
+                      fmt::format("face {} has vertex {}, but there are {} (counted from 0); remove the face",
+                                  f, static_cast<int>(face.mIndices[k]), mesh.mNumVertices));
       }
     }
   }
 }
 
-const aiScene& load(Assimp::Importer& importer, const std::string& name) {
-  const auto refuse_null = [&](const aiScene* scene) {
-    if (scene != nullptr && scene->mRootNode != nullptr) return;
-    if (const std::exception_ptr& reason = importer.GetException()) {
-      try {
-        std::rethrow_exception(reason);
-      } catch (const Error&) {  // ours, from mesh_folder
-        throw;
-      } catch (const std::bad_alloc&) {
-        throw;
-      } catch (const std::exception&) {  // told by GetErrorString
-      }
+// Of the first chunk.
+std::size_t glb_json_size(std::string_view glb) {
+  std::uint32_t size = 0;  // little-endian, as is every processor that we build for
+  if (glb.size() >= 16) std::memcpy(&size, glb.data() + 12, sizeof size);
+  return size;
+}
+
+// The library's readers of JSON call themselves for every level.
+void check_depth(std::string_view bytes, const std::string& extension) {
+  constexpr int kDeepest = 200;
+  if (extension == ".glb")
+    bytes = bytes.substr(std::min<std::size_t>(20, bytes.size()), glb_json_size(bytes));
+  else if (extension != ".gltf")
+    return;
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const char c = bytes[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      in_string = c != '"';
+    } else if (c == '[' || c == '{') {
+      if (++depth > kDeepest)
+        throw Error(ErrorCode::input, fmt::format("its JSON is nested deeper than {} levels", kDeepest));
+    } else if (c == ']' || c == '}') {
+      --depth;
+    } else {
+      in_string = c == '"';
     }
-    throw Error(ErrorCode::input,
-                fmt::format("it cannot be read as a mesh: {}",
-                            scene == nullptr ? importer.GetErrorString() : "it holds no scene"));
-  };
-  const aiScene* scene = importer.ReadFile(name, 0);
-  refuse_null(scene);
+  }
+}
+
+// Why the library could not read it, in our words where its own help nobody.
+std::string reason_of(std::string words, const std::string& extension) {
+  while (!words.empty() && (words.back() == '.' || words.back() == '\n')) words.pop_back();
+  for (const char* unknown : {"No suitable reader", "Failed to determine STL", "Incorrect magic number"})
+    if (words.find(unknown) != words.npos)
+      return fmt::format("its content is not that of a {} file", extension);
+  constexpr std::size_t kMost = 200;  // some quote the rest of the file
+  return words.size() > kMost ? words.substr(0, kMost) + " [and more]" : words;
+}
+
+[[noreturn]] void refuse(const Assimp::Importer& importer, const std::string& extension) {
+  if (const std::exception_ptr& reason = importer.GetException()) {
+    try {
+      std::rethrow_exception(reason);
+    } catch (const Error&) {  // ours, from mesh_folder
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception&) {  // told by GetErrorString
+    }
+  }
+  const std::string reason = reason_of(importer.GetErrorString(), extension);
+  throw Error(ErrorCode::input,
+              fmt::format("it cannot be read as a mesh: {}", reason.empty() ? "it holds no scene" : reason));
+}
+
+const aiScene& load(Assimp::Importer& importer, const std::string& extension) {
+  const auto usable = [](const aiScene* scene) { return scene != nullptr && scene->mRootNode != nullptr; };
+  const aiScene* scene = importer.ReadFile(kName + extension, 0);
+  if (!usable(scene)) refuse(importer, extension);
   check_indices(*scene);
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-  refuse_null(scene);
+  if (!usable(scene)) refuse(importer, extension);
   return *scene;
 }
 
 // The parts that are the blade's.
-std::vector<Instance> blade_parts(const aiScene& scene, bool& stalk_left_out) {
+std::vector<Instance> blade_parts(const aiScene& scene, std::vector<std::string>& notes) {
   std::vector<Instance> parts;
   collect(scene, *scene.mRootNode, Eigen::Matrix4d::Identity(), parts);
   const auto stalks =
       std::count_if(parts.begin(), parts.end(), [](const Instance& part) { return part.stalk; });
-  stalk_left_out = stalks > 0 && stalks < static_cast<std::ptrdiff_t>(parts.size());
-  if (stalk_left_out)
+  if (stalks > 0 && stalks < static_cast<std::ptrdiff_t>(parts.size())) {
     parts.erase(std::remove_if(parts.begin(), parts.end(), [](const Instance& part) { return part.stalk; }),
                 parts.end());
+    notes.push_back("the part named 'stalk' was left out; the blade alone is a leaf");
+  }
   return parts;
 }
 
-template <class Matrix>
-void pack(std::string& bytes, const Matrix& matrix) {
-  const std::int64_t rows = matrix.rows();
-  bytes.append(reinterpret_cast<const char*>(&rows), sizeof rows);
-  bytes.append(reinterpret_cast<const char*>(matrix.data()), sizeof(*matrix.data()) * matrix.size());
-}
+// Hears the library say that it left faces out, which it tells no other way.
+class LeftOut {
+ public:
+  LeftOut() {
+    Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
+    Assimp::DefaultLogger::get()->attachStream(new Listener(heard_),
+                                               Assimp::Logger::Warn);  // deleted by kill
+  }
+  LeftOut(const LeftOut&) = delete;
+  LeftOut& operator=(const LeftOut&) = delete;
+  ~LeftOut() { Assimp::DefaultLogger::kill(); }
 
-template <class Matrix>
-void unpack(std::string_view& bytes, Matrix& matrix) {
-  std::int64_t rows = 0;
-  std::memcpy(&rows, bytes.data(), sizeof rows);
-  matrix.resize(rows, matrix.cols());
-  bytes.remove_prefix(sizeof rows);
-  const std::size_t length = sizeof(*matrix.data()) * static_cast<std::size_t>(matrix.size());
-  if (length > 0) std::memcpy(matrix.data(), bytes.data(), length);
-  bytes.remove_prefix(length);
-}
+  bool heard() const { return heard_; }
+
+ private:
+  class Listener : public Assimp::LogStream {
+   public:
+    explicit Listener(bool& heard) : heard_(heard) {}
+    void write(const char* message) override {
+      if (std::strstr(message, "out-of-range indices") != nullptr) heard_ = true;
+    }
+
+   private:
+    bool& heard_;
+  };
+
+  bool heard_ = false;
+};
 
 }  // namespace
 
 TriangleSoup parse_mesh(std::string_view bytes, const std::string& extension,
                         const std::filesystem::path& folder) {
-  const std::string name = "leaf" + extension;
+  check_depth(bytes, extension);
+  const LeftOut left_out;
   Assimp::Importer importer;
-  importer.SetIOHandler(new MeshFolder(bytes, name, folder));  // the importer deletes it
+  importer.SetIOHandler(new MeshFolder(bytes, kName + extension, folder));  // the importer deletes it
   keep_only(importer, extension);
   TriangleSoup soup;
-  const std::vector<Instance> parts = blade_parts(load(importer, name), soup.stalk_left_out);
+  const std::vector<Instance> parts = blade_parts(load(importer, extension), soup.notes);
+  if (left_out.heard()) soup.notes.push_back("faces with vertices that the file does not have were left out");
   std::int64_t vertices = 0;
   for (const Instance& part : parts) vertices += part.mesh->mNumVertices;
-  if (vertices > kMostMeshVertices)
+  if (vertices > kMostVertices)
     throw Error(ErrorCode::input, fmt::format("it has {} vertices; {} are allowed: simplify it first",
-                                              vertices, kMostMeshVertices));
+                                              vertices, kMostVertices));
   soup.positions.resize(vertices, 3);
   soup.uv.resize(vertices, 2);
   std::vector<Eigen::Vector3i> faces;
@@ -186,19 +247,20 @@ TriangleSoup read_mesh(std::string_view bytes, const std::string& extension,
                        const std::filesystem::path& folder, const Monitor& monitor) {
   const auto parse = [&] {
     const TriangleSoup soup = parse_mesh(bytes, extension, folder);
-    std::string packed(1, static_cast<char>(soup.stalk_left_out));
-    pack(packed, soup.positions);
-    pack(packed, soup.uv);
-    pack(packed, soup.faces);
-    return packed;
+    Packer packer;
+    packer.matrix(soup.positions);
+    packer.matrix(soup.uv);
+    packer.matrix(soup.faces);
+    packer.texts(soup.notes);
+    return packer.take();
   };
   const std::string packed = run_isolated("the mesh reader", parse, monitor);
+  Unpacker unpacker(packed);
   TriangleSoup soup;
-  soup.stalk_left_out = packed[0] != 0;
-  std::string_view rest = std::string_view(packed).substr(1);
-  unpack(rest, soup.positions);
-  unpack(rest, soup.uv);
-  unpack(rest, soup.faces);
+  soup.positions = unpacker.matrix<Points3>();
+  soup.uv = unpacker.matrix<Points2>();
+  soup.faces = unpacker.matrix<Faces>();
+  soup.notes = unpacker.texts();
   return soup;
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "wilt/core/monitor.hpp"
 #include "wilt/core/types.hpp"
@@ -11,10 +12,10 @@
 namespace wilt::detail {
 
 struct TriangleSoup {
-  Points3 positions;            ///< #S x 3, Z up
-  Points2 uv;                   ///< #S x 2, origin top left; not a number where the file gives none
-  Faces faces;                  ///< #F x 3
-  bool stalk_left_out = false;  ///< whether there was a part named "stalk"
+  Points3 positions;               ///< #S x 3, Z up
+  Points2 uv;                      ///< #S x 2, origin top left; not a number where the file gives none
+  Faces faces;                     ///< #F x 3
+  std::vector<std::string> notes;  ///< what was left out
 };
 
 /// File coordinates (Y up) to ours (Z up) and back.
@@ -28,7 +29,8 @@ inline Vec3 to_file_axes(const Vec3& ours) {
 /// A mesh file's bytes; `extension` (.obj .ply .stl .glb .gltf) says how to read them, and the buffers that
 /// a .gltf names are looked for in `folder` alone (mesh_folder.hpp). Polygons are cut into triangles, node
 /// transforms applied, points and lines left out, and so is a part named "stalk" beside others. There may be
-/// no face. Throws Error{input}. The library may crash on hostile bytes: callers use read_mesh.
+/// no face. Throws Error{input}. The library may crash on hostile bytes: callers use read_mesh. Not
+/// for several threads at once.
 TriangleSoup parse_mesh(std::string_view bytes, const std::string& extension,
                         const std::filesystem::path& folder);
 

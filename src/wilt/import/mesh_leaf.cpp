@@ -39,11 +39,11 @@ void note_implausible_length(Leaf& leaf, const std::string& unit_advice) {
     leaf.notes.push_back(fmt::format("the leaf is {:.4g} m long, which no leaf is: {}", length, unit_advice));
 }
 
-Leaf leaf_from_mesh(const TriangleSoup& soup, const std::string& name, std::vector<std::string> notes,
-                    const ReadOptions& options, const Monitor& monitor) {
+Leaf leaf_from_mesh(const TriangleSoup& soup, const std::string& name, const ReadOptions& options,
+                    const Monitor& monitor) {
   Leaf leaf;
   leaf.name = name;
-  leaf.notes = std::move(notes);
+  leaf.notes = soup.notes;
   leaf.species = "generic";
   leaf.seed = options.seed;
   monitor.report("repairing the mesh", 0.0);

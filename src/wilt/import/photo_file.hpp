@@ -22,7 +22,7 @@ inline constexpr int kWorkingSide = 3000;
 Photo parse_photo(std::string_view bytes);
 
 /// The largest file of a picture that is read, bytes.
-inline constexpr std::uint64_t kLargestPicture = std::uint64_t{1} << 30;
+inline constexpr std::uint64_t kLargestPicture = std::uint64_t{512} << 20;
 
 /// A mask of the same leaf: white (128 and above, of any channel's mean) is the leaf. It is scaled to the
 /// photo; Throws Error{input} when its shape differs from the photo's by more than 1 %.

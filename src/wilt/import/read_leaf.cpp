@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "wilt/core/error.hpp"
 #include "wilt/core/file.hpp"
 #include "wilt/core/nearest.hpp"
+#include "wilt/core/printable.hpp"
+#include "wilt/import/content_kind.hpp"
 #include "wilt/import/drawn_leaf.hpp"
 #include "wilt/import/mesh_leaf.hpp"
 #include "wilt/import/photo_file.hpp"
@@ -73,13 +76,10 @@ void validate(const ReadOptions& options, const std::string& extension) {
 // A .ply without faces is a scan too.
 Leaf leaf_from_mesh_or_scan(const std::filesystem::path& file, std::string_view bytes,
                             const std::string& name, const ReadOptions& options, const Monitor& monitor) {
-  const detail::TriangleSoup soup = detail::read_mesh(
-      bytes, extension_of(file.string()), file.has_parent_path() ? file.parent_path() : ".", monitor);
-  std::vector<std::string> notes;
-  if (soup.stalk_left_out) notes.push_back("the part named 'stalk' was left out; the blade alone is a leaf");
-  if (!options.scan && soup.faces.rows() > 0)
-    return detail::leaf_from_mesh(soup, name, std::move(notes), options, monitor);
-  return detail::leaf_from_scan({soup.positions, true, std::move(notes)}, name, options, monitor);
+  detail::TriangleSoup soup = detail::read_mesh(bytes, extension_of(file.string()),
+                                                file.has_parent_path() ? file.parent_path() : ".", monitor);
+  if (!options.scan && soup.faces.rows() > 0) return detail::leaf_from_mesh(soup, name, options, monitor);
+  return detail::leaf_from_scan({soup.positions, true, std::move(soup.notes)}, name, options, monitor);
 }
 
 // The largest file of a kind that is read, bytes: what is parsed takes some 20 times as much memory.
@@ -97,11 +97,12 @@ std::string bytes_of(const std::filesystem::path& file) {
   return read_file(file.string(), largest(extension_of(file.string())));
 }
 
-Leaf read(const std::filesystem::path& file, const ReadOptions& options, const Monitor& monitor) {
-  const std::string name = file.stem().string(), extension = extension_of(file.string());
-  const std::string bytes = bytes_of(file);
+Leaf parse(const std::filesystem::path& file, std::string_view bytes, const ReadOptions& options,
+           const Monitor& monitor) {
+  const std::string name = printable(file.stem().string()), extension = extension_of(file.string());
   if (extension == ".svg")
-    return detail::leaf_from_outline(detail::parse_svg_outline(bytes, options.nth), name, options, monitor);
+    return detail::leaf_from_outline(detail::read_svg_outline(bytes, options.nth, monitor), name, options,
+                                     monitor);
   if (extension == ".json")
     return detail::leaf_from_outline(detail::parse_json_outline(bytes), name, options, monitor);
   if (is_photo(extension)) return detail::leaf_from_photo(bytes, name, options, monitor);
@@ -111,6 +112,18 @@ Leaf read(const std::filesystem::path& file, const ReadOptions& options, const M
     return detail::leaf_from_scan(std::move(scan), name, options, monitor);
   }
   return leaf_from_mesh_or_scan(file, bytes, name, options, monitor);
+}
+
+Leaf read(const std::filesystem::path& file, const ReadOptions& options, const Monitor& monitor) {
+  const std::string bytes = bytes_of(file);
+  if (bytes.empty()) throw Error(ErrorCode::input, "it is empty; write it again");
+  try {
+    return parse(file, bytes, options, monitor);
+  } catch (const Error& error) {
+    const std::string hint = detail::wrong_kind_hint(bytes, extension_of(file.string()));
+    if (error.code() != ErrorCode::input || hint.empty()) throw;
+    throw Error(ErrorCode::input, error.what() + hint);
+  }
 }
 
 // Runs `read`; the message of what it refuses begins with the file's name.
@@ -123,7 +136,19 @@ auto naming(const std::filesystem::path& file, const Read& read) {
     if (error.code() != ErrorCode::input || std::string(error.what()).find(name + "'") != std::string::npos)
       throw;
     throw Error(ErrorCode::input, fmt::format("'{}': {}", name, error.what()));
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::input,
+                fmt::format("'{}': reading it takes more memory than there is; simplify it", name));
   }
+}
+
+// Squares and cubes of lengths must be numbers too. Odd lengths within these have their note.
+void check_length(double length, const std::filesystem::path& file) {
+  constexpr double kLeast = 1e-15, kMost = 1e15;  // metres
+  if (!(length >= kLeast && length <= kMost))
+    throw Error(ErrorCode::input,
+                fmt::format("'{}': the leaf would be {:.3g} m long; {:g} to {:g} are allowed: mend its scale",
+                            file.filename().string(), length, kLeast, kMost));
 }
 
 }  // namespace
@@ -143,6 +168,7 @@ Leaf read_leaf(const std::filesystem::path& file, const ReadOptions& options, co
                             joined(leaf_file_extensions())));
   validate(options, extension);
   Leaf leaf = naming(file, [&] { return read(file, options, monitor); });
+  check_length(leaf_length(leaf), file);
   for (const std::string& note : leaf.notes) monitor.say(note);
   return leaf;
 }

@@ -289,8 +289,11 @@ Skin make_skin(const TriangleSoup& soup, const Triangles& triangles) {
 void check_finite(const TriangleSoup& soup) {
   for (int v = 0; v < soup.positions.rows(); ++v) {
     if (!soup.positions.row(v).allFinite())
-      throw Error(ErrorCode::input,
-                  fmt::format("vertex {} of the file has a position that is not a finite number", v));
+      throw Error(
+          ErrorCode::input,
+          fmt::format("a vertex lies at ({}, {}, {}) (z up); positions must be finite numbers, in single "
+                      "precision at most 3e38: mend or remove it",
+                      soup.positions(v, 0), soup.positions(v, 1), soup.positions(v, 2)));
   }
 }
 

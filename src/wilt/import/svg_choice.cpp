@@ -167,6 +167,11 @@ ChosenLeaf choose_leaf(const svg::Drawing& drawing, int nth) {
   const std::vector<Candidate> all = candidates_of(drawing, grid);
   int shadows = 0;
   const std::vector<Candidate> leaves = leaves_of(all, grid, shadows);
+  if (leaves.empty())
+    throw Error(
+        ErrorCode::input,
+        "no filled shape of the drawing encloses an area; a leaf is the largest filled shape, so draw "
+        "its whole outline");
   if (nth > static_cast<int>(leaves.size()))
     throw Error(ErrorCode::input,
                 fmt::format("the drawing has {} leaf-like shape{}; --leaf {} must be from 1 "

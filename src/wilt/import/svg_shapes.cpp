@@ -15,6 +15,10 @@
 namespace wilt::svg {
 namespace {
 
+// A few lines of <use> within <use> may stand for any number of shapes: an element counts as kElementCost
+// bytes of path data.
+constexpr std::size_t kMostData = 100'000'000, kElementCost = 100;
+
 // What a shape inherits from the groups around it.
 struct State {
   Transform transform = Transform::Identity();
@@ -122,6 +126,7 @@ class Walker {
   void walk(const pugi::xml_node& element, const State& inherited, int depth) {
     static const std::set<std::string> groups{"svg", "g", "a", "switch"};
     if (depth > 200 || styles_.property(element, "display") == "none") return;
+    spend(kElementCost);
     const std::string name = local_name(element);
     if (groups.count(name) > 0) {
       walk_children(element, placed(element, enter(element, inherited), name == "svg"), depth + 1);
@@ -136,9 +141,21 @@ class Walker {
       else
         walk(target, state, depth + 10);
     } else if (const std::string data = path_data(element, name); !data.empty()) {
+      spend(data.size());
       const State state = enter(element, inherited);
       if (state.visible && state.paint.kind != Paint::Kind::none) pending_.push_back({data, state});
     }
+  }
+
+  void spend(std::size_t cost) {
+    data_ += cost;
+    if (data_ > kMostData)
+      throw Error(
+          ErrorCode::input,
+          fmt::format(
+              "the drawing holds more than {} MB of shapes, those that <use> repeats counted; keep the "
+              "leaf alone",
+              kMostData / 1'000'000));
   }
 
   State placed(const pugi::xml_node& element, State state, bool moves) const {
@@ -188,6 +205,7 @@ class Walker {
   std::vector<double> view_box_;
   Vec2 page_ = Vec2(100, 100);
   std::vector<Pending> pending_;
+  std::size_t data_ = 0;  // of the shapes so far, bytes
 };
 
 }  // namespace

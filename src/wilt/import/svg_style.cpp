@@ -3,7 +3,6 @@
 #include <pugixml.hpp>
 
 #include <algorithm>
-#include <functional>
 #include <sstream>
 
 namespace wilt::svg {
@@ -42,18 +41,14 @@ std::string local_name(const pugi::xml_node& element) {
 }
 
 StyleSheet::StyleSheet(const pugi::xml_node& root) {
-  const std::function<void(const pugi::xml_node&)> visit = [&](const pugi::xml_node& node) {
-    for (const pugi::xml_node& child : node.children()) {
-      if (local_name(child) == "style") {
-        std::string css;
-        for (const pugi::xml_node& text : child.children()) css += text.value();
-        add_rules(css);
-      } else {
-        visit(child);
-      }
-    }
-  };
-  visit(root);
+  // find_node visits all, however deep, and calls nobody again for a level.
+  root.find_node([this](const pugi::xml_node& node) {
+    if (local_name(node) != "style") return false;
+    std::string css;
+    for (const pugi::xml_node& text : node.children()) css += text.value();
+    add_rules(css);
+    return false;
+  });
   std::stable_sort(rules_.begin(), rules_.end(),
                    [](const Rule& a, const Rule& b) { return a.weight() < b.weight(); });
 }

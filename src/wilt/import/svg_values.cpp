@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <svgpp/factory/integer_color.hpp>
@@ -103,6 +104,11 @@ struct PaintReceiver {
   }
 };
 
+// svgpp's grammars are ASCII, and what they look words up with takes nothing else.
+bool is_ascii(const std::string& text) {
+  return std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x80; });
+}
+
 std::string shortened(const std::string& text) {
   return text.size() > 60 ? text.substr(0, 57) + "..." : text;
 }
@@ -115,7 +121,8 @@ std::vector<Ring> flatten_path(const std::string& data, const Transform& transfo
       svgpp::value_parser<svgpp::tag::type::path_data, svgpp::path_policy<svgpp::policy::path::minimal>>;
   bool read = false;
   try {
-    read = Parser::parse(svgpp::tag::attribute::d(), flattener, data, svgpp::tag::source::attribute());
+    read = is_ascii(data) &&
+           Parser::parse(svgpp::tag::attribute::d(), flattener, data, svgpp::tag::source::attribute());
   } catch (const std::exception&) {
     read = false;
   }
@@ -130,8 +137,9 @@ Transform parse_transform(const std::string& text) {
   TransformReceiver receiver;
   bool read = false;
   try {
-    read = svgpp::value_parser<svgpp::tag::type::transform_list>::parse(
-        svgpp::tag::attribute::transform(), receiver, text, svgpp::tag::source::attribute());
+    read = is_ascii(text) &&
+           svgpp::value_parser<svgpp::tag::type::transform_list>::parse(
+               svgpp::tag::attribute::transform(), receiver, text, svgpp::tag::source::attribute());
   } catch (const std::exception&) {
     read = false;
   }
@@ -145,6 +153,11 @@ Transform parse_transform(const std::string& text) {
 
 std::optional<Paint> parse_paint(const std::string& text) {
   PaintReceiver receiver;
+  if (!is_ascii(text)) {
+    if (text.rfind("url(", 0) != 0) return std::nullopt;
+    receiver.paint.kind = Paint::Kind::server;
+    return receiver.paint;
+  }
   try {
     if (svgpp::value_parser<svgpp::tag::type::paint>::parse(svgpp::tag::attribute::fill(), receiver, text,
                                                             svgpp::tag::source::css()))

@@ -9,6 +9,7 @@
 
 #include "wilt/core/error.hpp"
 #include "wilt/core/file.hpp"
+#include "wilt/core/printable.hpp"
 #include "wilt/output/glb_container.hpp"
 #include "wilt/output/gltf.hpp"
 
@@ -303,7 +304,7 @@ GlbFile parse_glb(std::string_view bytes, const std::string& name) {
   } catch (const nlohmann::json::exception& error) {
     throw Error(ErrorCode::input,
                 fmt::format("'{}' is not a leaf that wilt wrote: {}; give a .glb that wilt wrote", name,
-                            error.what()));
+                            untagged(error.what())));
   }
 }
 

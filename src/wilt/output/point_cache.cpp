@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 
 #include "wilt/core/error.hpp"
@@ -89,6 +90,11 @@ PointCacheHead parse_point_cache(std::string_view bytes, const std::string& path
                     path, is_mdd ? "MDD" : "PC2"));
   result.length = is_mdd ? number_at<float>(bytes, head + times - 4, true)
                          : (result.frames - 1) * number_at<float>(bytes, 24, false);
+  if (!(result.length >= 0.0 && std::isfinite(result.length)))
+    throw Error(
+        ErrorCode::input,
+        fmt::format("'{}' lasts {}, which no clip does; give a file that wilt or another program wrote whole",
+                    path, result.length));
   return result;
 }
 

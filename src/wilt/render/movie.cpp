@@ -1,11 +1,13 @@
 #include "wilt/render/movie.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <boost/process.hpp>
+#include <cerrno>
 #include <csignal>
-#include <filesystem>
+#include <cstring>
 #include <map>
 #include <vector>
 
@@ -32,27 +34,24 @@ const std::map<std::string, std::vector<std::string>>& codecs() {
   return kCodecs;
 }
 
-/// A folder of its own that goes away with it.
-class TemporaryFolder {
+/// A file in memory: it needs no disk, nobody else can find it, and it is gone when the program is, however
+/// that ends. ffmpeg inherits its descriptor.
+class MemoryFile {
  public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "wilt-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
+  MemoryFile() : descriptor_(memfd_create("wilt", 0)) {
+    if (descriptor_ < 0)
       throw Error(ErrorCode::output,
-                  fmt::format("cannot create a temporary folder in '{}'; set TMPDIR to a folder with space",
-                              std::filesystem::temp_directory_path().string()));
-    path_ = name;
+                  fmt::format("a film cannot be begun: {}; close some programs", std::strerror(errno)));
   }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
+  ~MemoryFile() { ::close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  /// A path under which this program and its children reach it.
+  std::string path() const { return fmt::format("/dev/fd/{}", descriptor_); }
 
  private:
-  std::filesystem::path path_;
+  int descriptor_;
 };
 
 }  // namespace
@@ -66,8 +65,6 @@ class MovieWriter::Encoder {
       throw Error(ErrorCode::output,
                   "a film needs the program ffmpeg, which is not there; install it (Debian: apt-get install "
                   "ffmpeg), or write a sheet.png");
-    file_ = (folder_.path() / ("film" + extension_of(path))).string();
-    errors_ = (folder_.path() / "errors").string();
     std::vector<std::string> arguments = {"-v",       "error",
                                           "-f",       "rawvideo",
                                           "-pix_fmt", "rgb24",
@@ -76,12 +73,12 @@ class MovieWriter::Encoder {
                                           "-i",       "-"};
     const auto& codec = codecs().at(extension_of(path));
     arguments.insert(arguments.end(), codec.begin(), codec.end());
-    arguments.insert(arguments.end(),
-                     {"-fflags", "+bitexact", "-flags:v", "+bitexact", "-threads", "2", file_});
+    arguments.insert(arguments.end(), {"-fflags", "+bitexact", "-flags:v", "+bitexact", "-threads", "2",
+                                       "-xerror", "-f", extension_of(path).substr(1), "-y", film_.path()});
     std::error_code failed;
-    child_ =
-        process::child(program, process::args(arguments),
-                       process::std_in<pictures_, process::std_err> boost::filesystem::path(errors_), failed);
+    child_ = process::child(
+        program, process::args(arguments),
+        process::std_in<pictures_, process::std_err> boost::filesystem::path(errors_.path()), group_, failed);
     if (failed) throw Error(ErrorCode::output, fmt::format("ffmpeg cannot be started: {}", failed.message()));
     previous_ = std::signal(SIGPIPE, SIG_IGN);  // a program that stopped is told by the stream
   }
@@ -106,24 +103,30 @@ class MovieWriter::Encoder {
     pictures_.flush();
     pictures_.pipe().close();
     child_.wait();
-    if (child_.exit_code() != 0) fail();
-    write_file(path_, read_file(file_));
+    // It may say that it could not write the end, and exit with 0.
+    if (child_.exit_code() != 0 || !said().empty()) fail();
+    write_file(path_, read_file(film_.path()));
   }
 
  private:
+  std::string said() const { return read_file(errors_.path()); }
+
   [[noreturn]] void fail() {
     pictures_.pipe().close();
     child_.wait();
-    const std::string said = read_file(errors_), reason = said.substr(0, said.find('\n'));
-    throw Error(ErrorCode::output, fmt::format("'{}': ffmpeg could not make the film{}{}", path_,
-                                               reason.empty() ? "" : ": ", reason));
+    const std::string all = said(), reason = all.substr(0, all.find('\n'));
+    throw Error(ErrorCode::output,
+                fmt::format("cannot write '{}': ffmpeg could not make the film{}{}; free some memory, or see "
+                            "whether `ffmpeg -codecs` has H.264 (.mp4) and VP9 (.webm)",
+                            path_, reason.empty() ? "" : ": ", reason));
   }
 
-  std::string path_, file_, errors_;
+  std::string path_;
   int width_, height_;
-  TemporaryFolder folder_;
+  MemoryFile film_, errors_;
   process::opstream pictures_;
   process::child child_;
+  process::group group_;  // out of reach of the terminal's Ctrl-C
   void (*previous_)(int) = SIG_DFL;
 };
 

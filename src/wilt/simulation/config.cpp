@@ -109,11 +109,26 @@ void apply_table(Config& config, const toml::table& table, const std::string& pr
   for (const auto& [key, node] : table) apply_node(config, prefix + std::string(key.str()), node, source);
 }
 
+// The library calls itself for every part of a dotted key; ours have three at most.
+void check_keys(std::string_view toml, std::string_view source) {
+  constexpr std::ptrdiff_t kMostDots = 64;  // of a line with its comment
+  for (int line = 1; !toml.empty(); ++line) {
+    const std::string_view text = toml.substr(0, toml.find('\n'));
+    toml.remove_prefix(std::min(text.size() + 1, toml.size()));
+    const bool comment =
+        text.substr(std::min(text.find_first_not_of(" \t"), text.size())).substr(0, 1) == "#";
+    if (!comment && std::count(text.begin(), text.end(), '.') > kMostDots)
+      fail(fmt::format("{}, line {}: it has more than {} dots, as no setting has", source, line, kMostDots));
+  }
+}
+
 toml::table parse(std::string_view toml, std::string_view source) {
+  check_keys(toml, source);
   try {
     return toml::parse(toml);
   } catch (const toml::parse_error& error) {
-    fail(fmt::format("{}, line {}: {}", source, error.source().begin.line, error.description()));
+    fail(fmt::format("{}, line {}: this is not TOML ({}); settings are lines like `dt = 0.1`", source,
+                     error.source().begin.line, error.description()));
   }
 }
 
@@ -130,15 +145,16 @@ std::string value_text(const Setting& setting, Config& config) {
   return fmt::format("\"{}\"", *std::get<std::string*>(field));
 }
 
-std::string comment_of(const Setting& setting, const Setting::Field& field) {
+std::string comment_of(const Setting& setting, Config& config, Config& fresh) {
   std::string text = setting.help;
   if (!setting.unit.empty()) text += fmt::format(" [{}]", setting.unit);
-  if (is_number(field)) {
+  if (is_number(setting.field(config))) {
     text += fmt::format("; {} to {}", setting.min, setting.max);
   } else if (!setting.words.empty()) {
     text += fmt::format("; {}", fmt::join(setting.words, ", "));
   }
-  return text;
+  const std::string usual = value_text(setting, fresh);
+  return value_text(setting, config) == usual ? text : text + "; default " + usual;
 }
 
 }  // namespace
@@ -182,7 +198,7 @@ std::string species_in_toml(std::string_view toml, std::string_view source) {
 }
 
 std::string to_toml(const Config& config, bool commented) {
-  Config copy = config;
+  Config copy = config, fresh = default_config(species(config.species));
   std::string text, section;
   for (const Setting& setting : settings()) {
     const std::size_t dot = setting.key.find('.');
@@ -193,8 +209,7 @@ std::string to_toml(const Config& config, bool commented) {
     }
     const std::string name = dot == std::string::npos ? setting.key : setting.key.substr(dot + 1);
     const std::string line = fmt::format("{} = {}", name, value_text(setting, copy));
-    text +=
-        commented ? fmt::format("{:<32}# {}\n", line, comment_of(setting, setting.field(copy))) : line + "\n";
+    text += commented ? fmt::format("{:<32}# {}\n", line, comment_of(setting, copy, fresh)) : line + "\n";
   }
   return text;
 }
