@@ -1,4 +1,5 @@
-// random_settings SEED FIRST COUNT: a line of JSON for each of these runs, as soon as it is done.
+// random_settings SEED FIRST COUNT: for each of these runs a line of JSON when it begins, with its settings,
+// and one when it is done.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -12,16 +13,25 @@
 namespace wilt::random_settings {
 namespace {
 
-std::string line_of(const Draw& draw, const Outcome& o, double seconds) {
-  const nlohmann::ordered_json line = {{"run", draw.number},           {"species", draw.config.species},
-                                       {"model", draw.config.model},   {"way", way_name(draw.way)},
-                                       {"settings", draw.assignments}, {"outcome", o.kind},
-                                       {"reason", o.reason},           {"steps", o.steps},
-                                       {"halved", o.halved},           {"residual", o.residual},
-                                       {"tolerance", o.tolerance},     {"imbalance", o.imbalance},
-                                       {"strain", o.strain},           {"motion", o.motion},
-                                       {"energy", o.energy},           {"seconds", seconds}};
-  return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+using Line = nlohmann::ordered_json;
+
+void print(const Line& line) {
+  fmt::print("{}\n", line.dump(-1, ' ', false, Line::error_handler_t::replace));
+  std::fflush(stdout);
+}
+
+Line beginning_of(const Draw& draw) {
+  return {{"run", draw.number},
+          {"species", draw.config.species},
+          {"model", draw.config.model},
+          {"way", way_name(draw.way)},
+          {"settings", draw.assignments}};
+}
+
+Line end_of(const Draw& draw, const Outcome& o, double seconds) {
+  return {{"run", draw.number}, {"outcome", o.kind},      {"reason", o.reason},       {"steps", o.steps},
+          {"halved", o.halved}, {"residual", o.residual}, {"imbalance", o.imbalance}, {"strain", o.strain},
+          {"motion", o.motion}, {"energy", o.energy},     {"seconds", seconds}};
 }
 
 }  // namespace
@@ -37,11 +47,11 @@ int main(int argc, char** argv) {
   const std::int64_t first = std::strtoll(argv[2], nullptr, 10), count = std::strtoll(argv[3], nullptr, 10);
   for (std::int64_t number = first; number < first + count; ++number) {
     const Draw drawn = draw(seed, number);
+    print(beginning_of(drawn));
     const auto start = std::chrono::steady_clock::now();
     const Outcome outcome = run(drawn);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    fmt::print("{}\n", line_of(drawn, outcome, seconds));
-    std::fflush(stdout);
+    print(end_of(drawn, outcome, seconds));
   }
   return 0;
 }

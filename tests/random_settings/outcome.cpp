@@ -105,7 +105,6 @@ void Inspection::water() const {
 void inspect(const Config& config, const Leaf& leaf, const SimulationResult& result, Outcome& outcome) {
   const Inspection inspection{config, leaf, result, outcome};
   outcome.steps = static_cast<int>(result.steps.size());
-  outcome.tolerance = config.solver.tolerance;
   outcome.kind = result.completed ? "good" : "stopped";
   outcome.reason = result.stop_reason;
   inspection.expect(!result.frames.empty() && result.frames.front().iteration == 0, "no frame at rest");

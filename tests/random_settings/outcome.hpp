@@ -19,7 +19,6 @@ struct Outcome {
   double strain = 0.0;     ///< the largest |l / l_rest - 1| of a frame
   double motion = 0.0;     ///< the largest of a step: root mean square velocity x dt, in leaf lengths
   double energy = 0.0;     ///< the largest elastic and bending energy of a step, working units
-  double tolerance = 0.0;  ///< what the residual was asked to be
   int halved = 0;          ///< steps that were
 };
 

@@ -97,6 +97,7 @@ TEST(Watchdog, NoWaterComesFromNowhereIntoALeafWithHardlyAny) {
                                                   {"water.loss_rate", "0"},
                                                   {"external.scale", "0"},
                                                   {"iterations", "5"}});
+    ASSERT_EQ(result.steps.size(), 5u) << result.stop_reason;
     const double first = result.frames.front().water_fraction.minCoeff();
     EXPECT_NEAR(result.frames.back().water_fraction.minCoeff(), first, 1e-9) << model;
     EXPECT_NEAR(result.steps.back().water / result.steps.front().water, 1.0, 1e-12) << model;

@@ -14,6 +14,9 @@
 namespace wilt {
 namespace {
 
+// Substeps of a step, accepted or not: all that eight halvings can ask for, and as many again.
+constexpr int kMostSubsteps = 1000;
+
 int first_not_finite(const MotionState& state) {
   for (int i = 0; i < state.positions.rows(); ++i) {
     if (!state.positions.row(i).allFinite() || !state.velocities.row(i).allFinite() ||
@@ -56,6 +59,7 @@ StepReport ImplicitMidpoint::step(MotionState& state, double dt) {
   state.complete(n);
   StepReport report;
   report.dt = dt;
+  attempts_ = 0;
   report.converged = solve(state, dt, report);
   if (report.converged) {
     report.substeps = 1;
@@ -74,6 +78,10 @@ bool ImplicitMidpoint::halve(MotionState& state, double dt, int halvings_left, S
   if (halvings_left == 0) return false;
   for (int part = 0; part < 2; ++part) {
     report.dt = std::min(report.dt, 0.5 * dt);
+    if (attempts_++ == kMostSubsteps) {
+      report.reason = fmt::format("given up after {} substeps; take a smaller dt", kMostSubsteps);
+      return false;
+    }
     if (solve(state, 0.5 * dt, report))
       ++report.substeps;
     else if (!halve(state, 0.5 * dt, halvings_left - 1, report))

@@ -48,7 +48,7 @@ struct StepReport {
 /// the paper's model (chebyshev_midpoint.hpp). All else, and what does not converge so, is Newton's: each
 /// step by conjugate gradients, first with the exact second derivatives, then with semi-definite ones where
 /// these fail, and shortened until ||R|| falls. A step that does not converge is halved, up to `max_halvings`
-/// times. Deterministic on any number of threads.
+/// times, and given up after a thousand substeps. Deterministic on any number of threads.
 class ImplicitMidpoint {
  public:
   /// All terms must have been added to `system`, which must outlive this. Throws Error{configuration}.
@@ -69,6 +69,7 @@ class ImplicitMidpoint {
   std::unique_ptr<detail::ChebyshevMidpoint> without_matrix_;  // made when first needed
   std::unique_ptr<detail::NewtonSolve> newton_;                // the same
   Points3 load_;
+  int attempts_ = 0;  // at substeps of the step under way
 };
 
 /// Steps many systems, leaves of a batch: `states` one per stepper, each as stepper.step(state, dt) would,

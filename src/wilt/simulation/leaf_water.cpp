@@ -14,7 +14,7 @@ namespace {
 // 100 iterations of the maple still run at 3.4, the willow's stop at 5.3.
 constexpr double kLargestNumber = 4.0;
 
-// Working pressure. Default runs reach 1; at this one every spring has long snapped.
+// Working pressure. Default runs reach 2; at this one every spring has long snapped.
 constexpr double kLargestPressure = 1e12;
 
 // What goes missing in a step and is still round-off, of the leaf's water and what the air asked for.

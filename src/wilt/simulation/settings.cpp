@@ -144,7 +144,7 @@ std::vector<Setting> make_settings() {
     {"solver.tolerance", "", "relative residual of the midpoint equation",
      1e-12, 1e-2, {}, WILT_FIELD(solver.tolerance)},
     {"solver.max_newton", "", "Newton iterations before the step is halved",
-     1, 1000, {}, WILT_FIELD(solver.max_newton)},
+     1, 100, {}, WILT_FIELD(solver.max_newton)},
     {"solver.max_halvings", "", "halvings of a step before the run stops",
      0, 12, {}, WILT_FIELD(solver.max_halvings)},
   };
