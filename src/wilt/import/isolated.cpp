@@ -154,7 +154,8 @@ class Child {
 }
 
 constexpr const char* kRemedy =
-    "the file is damaged, or meets a fault in that library: open it in Blender and export it anew, as triangles";
+    "the file is damaged, or meets a fault in that library: open it in Blender and export it anew, as "
+    "triangles";
 
 [[noreturn]] void refuse_end(const std::string& reader, int signal, const IsolationLimits& limits) {
   if (signal == SIGXCPU)

@@ -10,8 +10,8 @@ namespace wilt {
 
 /// A film that is being written: .mp4 (H.264), .webm (VP9) or .gif, by its name's end.
 ///
-/// The film appears under its name when it is finished, whole; until then ffmpeg writes into a file in memory,
-/// which is gone however the program ends.
+/// The film appears under its name when it is finished, whole; until then ffmpeg writes into a file in
+/// memory, which is gone however the program ends.
 class MovieWriter {
  public:
   /// `fps` 1 to 120; widths and heights are cut to even numbers. Throws Error{configuration} for another

@@ -54,8 +54,8 @@ struct Venation {
 /// From geometry, and the photo if the leaf has one: the leaf's name is not looked at; the secondary veins'
 /// rule is given. Invariant to rigid motion, scale and relabelling (to round-off). Deterministic on any
 /// number of threads. O(#V^2 log #V) with all pairs, O(#landmarks #V log #V) above. Throws Error{input} when
-/// no tip is found or so many that their distances (tips x #V) are above 4e8, Error{configuration} for options
-/// or a rule out of range.
+/// no tip is found or so many that their distances (tips x #V) are above 4e8, Error{configuration} for
+/// options or a rule out of range.
 Venation find_venation(const Leaf& leaf, const SecondaryVeinRule& rule, const VenationOptions& options = {},
                        const Monitor& monitor = {});
 

@@ -233,8 +233,7 @@ WaterReport Permeation::printed_step(const Eigen::VectorXd& dry, Eigen::VectorXd
   });
   for (int i = 0; i < divisor.size(); ++i) {
     require(divisor[i] > 0.0,
-            "the printed permeation divides cell {} by {}; take a smaller dt or --model cell", i,
-            divisor[i]);
+            "the printed permeation divides cell {} by {}; take a smaller dt or --model cell", i, divisor[i]);
   }
   Eigen::VectorXd next = (water - dt * loss).cwiseQuotient(divisor);
   WaterReport report = p.bound(next, dt * loss.sum());
