@@ -2,7 +2,7 @@
 
 Oracles: the contract of the exit code; the length that a GLB states; the bytes of old files; listings. Pipes that wait make
 the moment of a signal certain; other moments are random (seed 1). How long the slowest took to end is printed, not asserted.
-Planted bug: a handler that only asks, as in withering, hangs in the tests whose pipes nobody fills.
+Seen to fail: a handler that only asks, as in withering, hangs in the tests whose pipes nobody fills.
 """
 import fcntl
 import json

@@ -1,7 +1,7 @@
 """stdout and stderr that take nothing: exit code 5 for data that is lost, never a crash, never a file spoilt.
 
-Oracles: the contract of the exit code; every line of a written OBJ is one of the format's. Planted bug: without
-guard_standard_streams() a message lands in the file that took stderr's number.
+Oracles: the contract of the exit code; every line of a written OBJ is one of the format's. Seen to fail: a program
+that writes messages by fmt::print aborts where stderr takes none, and one that leaves stdout to exit says 0.
 """
 import pathlib
 import subprocess

@@ -1,7 +1,8 @@
 """The manual, the completions, --dry-run and --print-config: all made from the command line's own definitions.
 
 Oracles: mandoc and groff (their warnings), bash, zsh and fish themselves, --help's own list of options, JSON and TOML
-parsers, listings of folders before and after. Planted bug: an option without a description fails the first test.
+parsers, listings of folders before and after. Seen to fail: --dry-run that
+forgot an OBJ's material and maps.
 """
 import json
 import os

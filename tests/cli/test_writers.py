@@ -2,7 +2,7 @@
 an old file stays as it was, and no temporary file is left, neither beside it nor in TMPDIR. Prints the table.
 
 Oracles: the contract of the exit code, the bytes of the old files, the listings of the folders before and after.
-Planted bug: write_file that opens the target with O_TRUNC fails in every column.
+Seen to fail: ffmpeg that could not write the end of a film exits with 0, and half a film took the old one's place.
 """
 import contextlib
 import fcntl
