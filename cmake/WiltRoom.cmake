@@ -25,7 +25,8 @@ if(WILT_HARDENING AND NOT EMSCRIPTEN AND NOT WILT_SANITIZE)
   target_link_options(wilt_options INTERFACE -Wl,-z,relro,-z,now)
 endif()
 if(WILT_SANITIZE)
-  target_compile_options(wilt_options INTERFACE -fsanitize=${WILT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_compile_options(wilt_options INTERFACE -fsanitize=${WILT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
+    -D_GLIBCXX_ASSERTIONS)  # as where it is hardened
   target_link_options(wilt_options INTERFACE -fsanitize=${WILT_SANITIZE})
 endif()
 

@@ -33,7 +33,8 @@ TEST_F(ScanRefusals, NameTheLineThatCannotBeRead) {
 }
 
 TEST_F(ScanRefusals, SayHowManyPointsAreNeeded) {
-  expect_refusal("", "0 points are too few; a scan of a leaf needs 300");
+  expect_refusal("", "it is empty");
+  expect_refusal("\n", "0 points are too few; a scan of a leaf needs 300");
   expect_refusal("# nothing\n\n", "0 points are too few");
   expect_refusal("0 0 0\n1 0 0\n0 1 0\n", "3 points are too few");
   std::string repeated, line;

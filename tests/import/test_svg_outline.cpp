@@ -220,8 +220,8 @@ TEST_F(SvgOutline, TakesNoOtherLettersThanAsciiForWords) {
   EXPECT_NE(message(svg("<path d='M0,0 L9,9 \u00e9'/>")).find("path data"), std::string::npos);
   EXPECT_NE(message(svg("<g transform='r\u00f6tate(3)'>" + lens("") + "</g>")).find("transform"),
             std::string::npos);
-  EXPECT_GT(drawn_area(read(write("x.svg", svg(lens("fill='gr\u00fcn'"))), small())), 0.0);
-  EXPECT_GT(drawn_area(read(write("x.svg", svg(lens("fill='url(#gr\u00fcn)'"))), small())), 0.0);
+  EXPECT_GT(drawn_area(read_leaf(write("x.svg", svg(lens("fill='gr\u00fcn'"))), small())), 0.0);
+  EXPECT_GT(drawn_area(read_leaf(write("x.svg", svg(lens("fill='url(#gr\u00fcn)'"))), small())), 0.0);
 }
 
 }  // namespace

@@ -53,6 +53,7 @@ WILT_INLINE void add_rows(const Eigen::MatrixXd& distances, const Plane& points,
     y[k] = Double8{} + points.y[row + k];
     sum_x[k] = sum_y[k] = Double8{};
   }
+  // Every lambda here is inlined by force: vectors are handed over differently in code for other processors.
   const auto pairs = [&](int j, auto wanted_of, auto counts) __attribute__((always_inline)) {
     const Double8 other_x = simd::load(&points.x[j]), other_y = simd::load(&points.y[j]);
     Double8 pull_x = simd::load(&band.forces.x[j]), pull_y = simd::load(&band.forces.y[j]);
@@ -75,13 +76,13 @@ WILT_INLINE void add_rows(const Eigen::MatrixXd& distances, const Plane& points,
     const auto counts = [&](int k, int l) { return j + l > row + k && j + l < n; };
     pairs(
         j,
-        [&](int k) {
+        [&](int k) __attribute__((always_inline)) {
           Double8 wanted{};
           for (int l = 0; l < lanes; ++l)
             if (counts(k, l)) wanted[l] = distances(j + l, row + k);
           return wanted;
         },
-        [&](int k, Double8 error) {
+        [&](int k, Double8 error) __attribute__((always_inline)) {
           for (int l = 0; l < lanes; ++l)
             if (!counts(k, l)) error[l] = 0.0;
           return error;
@@ -92,8 +93,8 @@ WILT_INLINE void add_rows(const Eigen::MatrixXd& distances, const Plane& points,
   for (; j < std::min(whole, first + 2 * lanes); j += lanes) some(j);
   for (; j < whole; j += lanes)
     pairs(
-        j, [&](int k) { return simd::load(&distances(j, row + k)); },
-        [](int, Double8 error) { return error; });
+        j, [&](int k) __attribute__((always_inline)) { return simd::load(&distances(j, row + k)); },
+        [](int, Double8 error) __attribute__((always_inline)) { return error; });
   if (j < n) some(j);
   for (int k = 0; k < kCount; ++k) {
     band.forces.x[row + k] += simd::sum(sum_x[k]);

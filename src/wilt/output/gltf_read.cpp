@@ -215,18 +215,32 @@ Points3 points_from(const Json& rows) {
   return points;
 }
 
+// Numbers beyond a type's range are converted to anything.
+int whole_number(const Json& value) {
+  constexpr std::int64_t kMost = std::numeric_limits<int>::max();
+  if (!value.is_number_integer() || value.get<std::int64_t>() < 0 || value.get<std::int64_t>() > kMost)
+    refuse(fmt::format("a number of its extras is no whole number from 0 to {}", kMost));
+  return value.get<int>();
+}
+
+std::vector<int> whole_numbers(const Json& list) {
+  std::vector<int> numbers;
+  for (const Json& value : list) numbers.push_back(whole_number(value));
+  return numbers;
+}
+
 void read_extras(const Json& document, GlbFile& file) {
   const Json& extras = document["asset"]["extras"]["wilt"];
   file.generator = document["asset"].at("generator").get<std::string>();
   file.extras = extras.dump();
-  file.iterations = extras.at("frames").get<std::vector<int>>();
+  file.iterations = whole_numbers(extras.at("frames"));
   file.dryness = extras.at("dryness").get<std::vector<double>>();
   const int faces = static_cast<int>(file.meshes.front().faces.rows());
   for (const double value : file.dryness)
     if (!(value >= 0.0 && value <= 1.0)) refuse(fmt::format("a dryness is {}, outside 0 to 1", value));
   for (const Json& vein : extras.at("veins")) {
-    GlbVein read{vein.at("order").get<int>(), points_from(vein.at("positions")),
-                 vein.at("faces").get<std::vector<int>>(), points_from(vein.at("barycentric"))};
+    GlbVein read{whole_number(vein.at("order")), points_from(vein.at("positions")),
+                 whole_numbers(vein.at("faces")), points_from(vein.at("barycentric"))};
     const auto points = static_cast<std::size_t>(read.positions.rows());
     if (read.faces.size() != points || static_cast<std::size_t>(read.barycentric.rows()) != points)
       refuse("the lists of a vein differ in length");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "wilt/core/error.hpp"
@@ -30,9 +31,18 @@ std::string_view take(std::string_view& bytes, std::size_t count) {
   return front;
 }
 
+// Numbers beyond a type's range are converted to anything.
+int whole_number(const Json& json, const char* key) {
+  const Json& value = json.at(key);
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > std::numeric_limits<int>::max())
+    throw Error(ErrorCode::input,
+                fmt::format("'{}' is no whole number from 0 to {}", key, std::numeric_limits<int>::max()));
+  return value.get<int>();
+}
+
 Eigen::MatrixXd take_array(std::string_view& bytes, const Json& entry) {
-  const auto rows = entry.at("rows").get<std::uint32_t>(), columns = entry.at("columns").get<std::uint32_t>();
-  const std::size_t count = std::size_t{rows} * columns;
+  const int rows = whole_number(entry, "rows"), columns = whole_number(entry, "columns");
+  const std::size_t count = static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
   if (count > kMostNumbers) throw Error(ErrorCode::input, "it ends too early");
   const std::string_view numbers = take(bytes, sizeof(double) * count);
   Eigen::MatrixXd array(rows, columns);
@@ -56,7 +66,7 @@ Checkpoint parse(std::string_view bytes) {
   checkpoint.version = json.at("version").get<std::string>();
   checkpoint.config = json.at("config").dump();
   checkpoint.leaf = json.at("leaf").get<std::string>();
-  checkpoint.iteration = json.at("iteration").get<int>();
+  checkpoint.iteration = whole_number(json, "iteration");
   for (const Json& entry : json.at("arrays"))
     checkpoint.arrays[entry.at("name").get<std::string>()] = take_array(rest, entry);
   if (!rest.empty()) throw Error(ErrorCode::input, fmt::format("{} bytes too many", rest.size()));
