@@ -100,11 +100,10 @@ class Interrupts(unittest.TestCase):
             self.assertFalse((self.dir / "new.glb").exists())
 
     def test_reading_writing_and_rendering_end_at_once(self):
-        for verb, target in (("veins", "v.svg"), ("render", "p.png"), ("info", None)):
+        for verb, target in (("veins", "v.svg"), ("render", "p.png")):
             waiting = self.pipe(f"{verb}.{'json' if verb == 'veins' else 'glb'}")
-            arguments = {"veins": ["veins", *LEAF, "--veins", waiting], "render": ["render", waiting],
-                         "info": ["info", waiting]}[verb]
-            process = self.start(*arguments, *(["-o", self.dir / target] if target else []))
+            arguments = {"veins": ["veins", *LEAF, "--veins", waiting], "render": ["render", waiting]}[verb]
+            process = self.start(*arguments, "-o", self.dir / target)
             with open(waiting, "wb"):
                 process.send_signal(signal.SIGINT)
                 said = self.end(process, verb)

@@ -45,7 +45,7 @@ void Inspection::steps() const {
       expect(std::isfinite(value) && value >= 0.0, at + fmt::format("a figure is {}", value));
     expect(step.residual <= config.solver.tolerance * (1.0 + kRoundOff),
            at + fmt::format("a residual of {}", step.residual));
-    outcome.residual = std::max(outcome.residual, step.residual);
+    outcome.residual = std::max(outcome.residual, step.residual / config.solver.tolerance);
     const double mass = step.water + result.steps.front().water * (1.0 / config.mass.water_fraction - 1.0);
     outcome.motion =
         std::max(outcome.motion, std::sqrt(2.0 * step.kinetic / mass) * config.dt / kWorkingLength);

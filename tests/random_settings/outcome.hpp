@@ -14,7 +14,7 @@ struct Outcome {
   std::string kind;
   std::string reason;
   int steps = 0;
-  double residual = 0.0;   ///< the largest of a step, relative
+  double residual = 0.0;   ///< the largest of a step, over solver.tolerance
   double imbalance = 0.0;  ///< water that came from nowhere or left unasked in a step, of the leaf's water
   double strain = 0.0;     ///< the largest |l / l_rest - 1| of a frame
   double motion = 0.0;     ///< the largest of a step: root mean square velocity x dt, in leaf lengths

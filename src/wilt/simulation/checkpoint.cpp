@@ -17,7 +17,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kMagic = "wilt checkpoint 1\n";
 constexpr std::size_t kHashLength = 17;  // with the line feed
-constexpr std::size_t kMostNumbers = std::size_t{1} << 34;
 
 std::string hash_line(std::string_view bytes) {
   return fmt::format("{:016x}\n", hash_bytes(bytes));
@@ -42,9 +41,9 @@ int whole_number(const Json& json, const char* key) {
 
 Eigen::MatrixXd take_array(std::string_view& bytes, const Json& entry) {
   const int rows = whole_number(entry, "rows"), columns = whole_number(entry, "columns");
-  const std::size_t count = static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
-  if (count > kMostNumbers) throw Error(ErrorCode::input, "it ends too early");
-  const std::string_view numbers = take(bytes, sizeof(double) * count);
+  const std::uint64_t count = static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(columns);
+  if (count > bytes.size() / sizeof(double)) throw Error(ErrorCode::input, "it ends too early");
+  const std::string_view numbers = take(bytes, sizeof(double) * static_cast<std::size_t>(count));
   Eigen::MatrixXd array(rows, columns);
   if (count > 0) std::memcpy(array.data(), numbers.data(), numbers.size());
   if (!array.allFinite())
