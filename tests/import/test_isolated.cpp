@@ -73,7 +73,7 @@ TEST(Isolated, SaysHowItsWorkEnded) {
   EXPECT_NE(refusal(sleep, {std::uint64_t{1} << 30, 1, 1}).find("more than 1 s on it"), std::string::npos);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef WILT_SANITIZED
 // Sanitizers print a crash of their own and map more than any limit.
 TEST(Isolated, BoundsMemoryAndSurvivesACrash) {
   const auto hungry = [] { return std::string(std::size_t{3} << 30, 'x'); };
