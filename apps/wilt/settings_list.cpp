@@ -11,10 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json value_of(const Setting& setting, Config& config) {
-  return std::visit([](const auto* value) { return Json(*value); }, setting.field(config));
-}
-
 std::vector<std::string> words_for(const Setting& setting, const Json& value) {
   if (value.is_boolean()) return {"true", "false"};
   return setting.key == "species" ? species_names() : setting.words;
@@ -23,29 +19,26 @@ std::vector<std::string> words_for(const Setting& setting, const Json& value) {
 }  // namespace
 
 std::vector<SettingText> list_settings(const Config& config) {
-  Config copy = config;
+  const Json values = Json::parse(to_json(config));
   std::vector<SettingText> list;
   for (const Setting& setting : settings()) {
-    const Json value = value_of(setting, copy);
-    SettingText text{setting.key,  value.is_string() ? value.get<std::string>() : value.dump(),
-                     setting.unit, setting.help,
-                     "",           words_for(setting, value)};
-    text.allowed = value.is_number() ? fmt::format("{} to {}", setting.min, setting.max)
-                                     : fmt::format("{}", fmt::join(text.words, ", "));
-    list.push_back(std::move(text));
+    const Json& value = values.at(setting.key);
+    list.push_back({setting.key, value.is_string() ? value.get<std::string>() : value.dump(), setting.unit,
+                    setting.help,
+                    value.is_number() ? fmt::format("{} to {}", setting.min, setting.max)
+                                      : fmt::format("{}", fmt::join(words_for(setting, value), ", "))});
   }
   return list;
 }
 
 std::string settings_json(const Config& config) {
-  Config copy = config, fresh = default_config(species(config.species));
+  const Json values = Json::parse(to_json(config)),
+             fresh = Json::parse(to_json(default_config(species(config.species))));
   Json list = Json::array();
   for (const Setting& setting : settings()) {
-    const Json value = value_of(setting, copy);
-    Json row = {{"key", setting.key},
-                {"value", value},
-                {"default", value_of(setting, fresh)},
-                {"unit", setting.unit}};
+    const Json& value = values.at(setting.key);
+    Json row = {
+        {"key", setting.key}, {"value", value}, {"default", fresh.at(setting.key)}, {"unit", setting.unit}};
     if (value.is_number())
       row["range"] = {setting.min, setting.max};
     else

@@ -1,4 +1,4 @@
-// The table of settings as text: --print-config, the manual and the completions say the same.
+// The table of settings as the manual and `--print-config --json` show it.
 #pragma once
 
 #include <string>
@@ -10,8 +10,7 @@ namespace wilt::cli {
 
 struct SettingText {
   std::string key, value, unit, help;
-  std::string allowed;             ///< "0 to 1", "ring, free", "true, false"
-  std::vector<std::string> words;  ///< when only these are allowed
+  std::string allowed;  ///< "0 to 1", "ring, free", "true, false"
 };
 
 /// Every setting with its value in `config`.

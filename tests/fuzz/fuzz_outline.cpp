@@ -28,8 +28,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (flags & 1) drawn.petiole = scale * Vec2(bytes.signed_byte(), bytes.signed_byte());
   ReadOptions options;
   options.vertices = 200;
-  if (const auto leaf =
-          fuzz::unless_refused([&] { return detail::leaf_from_outline(drawn, "leaf", options, {}); }))
-    fuzz::check_leaf(*leaf);
+  fuzz::check_refused_or_leaf([&] { return detail::leaf_from_outline(drawn, "leaf", options, {}); });
   return 0;
 }

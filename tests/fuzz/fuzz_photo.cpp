@@ -40,8 +40,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (flags & 2) options.nth = 2;
   if (flags & 4) options.threshold = 0.25 * (1 + bytes.byte());
   const std::string png = encode_png(picture(bytes));
-  if (const auto leaf =
-          fuzz::unless_refused([&] { return detail::leaf_from_photo(png, "leaf", options, {}); }))
-    fuzz::check_leaf(*leaf);
+  fuzz::check_refused_or_leaf([&] { return detail::leaf_from_photo(png, "leaf", options, {}); });
   return 0;
 }

@@ -41,4 +41,10 @@ inline void check_leaf(const Leaf& leaf) {
   check_skin(leaf);
 }
 
+/// read() refuses, or returns such a leaf.
+template <class Read>
+void check_refused_or_leaf(Read&& read) {
+  if (const auto leaf = unless_refused(read)) check_leaf(*leaf);
+}
+
 }  // namespace wilt::fuzz

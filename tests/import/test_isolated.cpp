@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "wilt/core/error.hpp"
+#include "wilt/core/sanitized.hpp"
 #include "wilt/import/isolated.hpp"
 
 namespace wilt::detail {
@@ -73,7 +74,7 @@ TEST(Isolated, SaysHowItsWorkEnded) {
   EXPECT_NE(refusal(sleep, {std::uint64_t{1} << 30, 1, 1}).find("more than 1 s on it"), std::string::npos);
 }
 
-#ifndef WILT_SANITIZED
+#if !WILT_SANITIZED
 // Sanitizers print a crash of their own and map more than any limit.
 TEST(Isolated, BoundsMemoryAndSurvivesACrash) {
   const auto hungry = [] { return std::string(std::size_t{3} << 30, 'x'); };

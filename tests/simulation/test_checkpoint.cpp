@@ -1,30 +1,22 @@
 // A run that was left and gone on with, against one that was not.
 #include <gtest/gtest.h>
 
+#include "simulation/case.hpp"
 #include "wilt/core/error.hpp"
-#include "wilt/leaf/species.hpp"
 #include "wilt/simulation/deformation_model.hpp"
 #include "wilt/simulation/simulate.hpp"
 
 namespace wilt {
 namespace {
 
-struct Subject {
-  Leaf leaf;
-  Config config;
-  Venation venation;
-};
-
-Subject make_subject(const std::string& name, const std::string& model) {
-  Subject s{make_leaf(name, 300, 1), default_config(species(name)), {}};
-  s.config.model = model;
-  s.config.iterations = 12;
-  s.config.frames = 5;
-  s.venation = find_venation(s.leaf, species(name).secondary, venation_options(s.config));
-  return s;
+Case make_subject(const std::string& name, const std::string& model) {
+  Case c = make_case(name, model, 300);
+  c.config.iterations = 12;
+  c.config.frames = 5;
+  return c;
 }
 
-Simulation start(const Subject& s) {
+Simulation start(const Case& s) {
   return {s.leaf, s.venation, s.config};
 }
 
@@ -33,7 +25,7 @@ std::string bytes_of(const Simulation& simulation) {
   return checkpoint_bytes(simulation.checkpoint());
 }
 
-Simulation resume(const Subject& s, const std::string& bytes) {
+Simulation resume(const Case& s, const std::string& bytes) {
   Simulation simulation = start(s);
   simulation.restore(parse_checkpoint(bytes, "run.checkpoint"));
   return simulation;
@@ -46,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(Checkpoints, ResumedRun, testing::ValuesIn(model_names(
 // frames, metrics, steps and forces are all in the bytes.
 TEST_P(ResumedRun, GoesOnAsIfItHadNeverBeenLeft) {
   for (const char* pin : {"ring", "free"}) {
-    Subject s = make_subject("ivy", GetParam());
+    Case s = make_subject("ivy", GetParam());
     s.config.pin = pin;
     Simulation whole = start(s);
     std::vector<std::string> states{bytes_of(whole)};
@@ -77,25 +69,25 @@ std::string message_of(const std::function<void()>& act) {
 
 // Oracle: planted differences, each named.
 TEST(Checkpoint, IsRefusedForAnotherRun) {
-  const Subject s = make_subject("tilia", "cell");
+  const Case s = make_subject("tilia", "cell");
   Simulation simulation = start(s);
   simulation.step();
   const std::string bytes = bytes_of(simulation);
-  const auto refusal = [&](const Subject& other) { return message_of([&] { resume(other, bytes); }); };
-  Subject drier = s;
+  const auto refusal = [&](const Case& other) { return message_of([&] { resume(other, bytes); }); };
+  Case drier = s;
   drier.config.water.humidity = 0.25;
   EXPECT_NE(refusal(drier).find("water.humidity was 0.5 and is 0.25"), std::string::npos) << refusal(drier);
-  Subject moved = s;
+  Case moved = s;
   moved.leaf.positions(17, 2) += 1e-9;
   EXPECT_NE(refusal(moved).find("another leaf"), std::string::npos);
-  Subject other_veins = s;
+  Case other_veins = s;
   other_veins.venation.veins.back().path.points.back().barycentric = Vec3(0.5, 0.5, 0.0);
   EXPECT_NE(refusal(other_veins).find("other veins"), std::string::npos);
 }
 
 // Oracle: every byte counts; the hash is not the reader's own guard, so some changes carry a new one.
 TEST(Checkpoint, IsRefusedWhenCutOffOrChanged) {
-  const Subject s = make_subject("tilia", "paper");
+  const Case s = make_subject("tilia", "paper");
   const std::string bytes = bytes_of(start(s));
   const auto refusal = [](const std::string& changed) {
     return message_of([&] { parse_checkpoint(changed, "x"); });
@@ -113,7 +105,7 @@ TEST(Checkpoint, IsRefusedWhenCutOffOrChanged) {
 
 // Oracle: arrays of the wrong size or kind, planted in the structure.
 TEST(Checkpoint, IsRefusedWhenItsArraysDoNotFit) {
-  const Subject s = make_subject("tilia", "cell");
+  const Case s = make_subject("tilia", "cell");
   Simulation simulation = start(s);
   simulation.step();
   const Checkpoint good = simulation.checkpoint();

@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "simulation/case.hpp"
 #include "wilt/core/parallel.hpp"
-#include "wilt/leaf/species.hpp"
 #include "wilt/mesh/geometry.hpp"
 #include "wilt/simulation/deformation_model.hpp"
 #include "wilt/simulation/drying_fields.hpp"
@@ -13,21 +13,6 @@
 
 namespace wilt {
 namespace {
-
-struct Case {
-  Leaf leaf;
-  Config config;
-  Venation venation;
-};
-
-Case make_case(const std::string& name, const std::string& model, int vertices = 400) {
-  Case c{make_leaf(name, vertices, 1), default_config(species(name)), {}};
-  c.config.model = model;
-  c.config.iterations = 20;
-  c.config.frames = 3;
-  c.venation = find_venation(c.leaf, species(name).secondary, venation_options(c.config));
-  return c;
-}
 
 SimulationResult run(const Case& c) {
   return simulate(c.leaf, c.venation, c.config);

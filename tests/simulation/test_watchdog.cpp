@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "wilt/leaf/species.hpp"
+#include "wilt/simulation/metrics.hpp"
 #include "wilt/simulation/simulate.hpp"
 #include "wilt/simulation/watchdog.hpp"
 
@@ -16,10 +17,11 @@ struct Case {
   Points3 rest = kWorkingLength / leaf_length(leaf) * leaf.positions;
   Points3 still = Points3::Zero(rest.rows(), 3);
   Eigen::VectorXd masses = Eigen::VectorXd::Ones(rest.rows());
-  Watchdog watchdog{leaf.mesh, rest, 0.1, 1e-8};
+  LeafMetrics metrics{leaf.mesh, rest, leaf.petiole, {}};
+  Watchdog watchdog{0.1, 1e-8};
   StepRow row{.iteration = 1, .dt = 0.1, .residual = 1e-8, .water = 100.0};
 
-  std::string complaint() const { return watchdog.complaint(row, rest, still, masses); }
+  std::string complaint() const { return watchdog.complaint(row, metrics.max_strain(rest), still, masses); }
 };
 
 // Oracle: planted, one thing at a time.

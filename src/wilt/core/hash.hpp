@@ -1,6 +1,7 @@
 // Hashes: of bytes, and as random numbers that depend on a place alone (no stream, no order).
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string_view>
 
@@ -27,6 +28,13 @@ inline std::uint64_t hash_bytes(std::string_view bytes) {
     hash *= 1099511628211ULL;
   }
   return hash;
+}
+
+/// hash_bytes of a matrix's or vector's entries, in the order in which it keeps them.
+template <class Derived>
+std::uint64_t hash_entries(const Eigen::PlainObjectBase<Derived>& matrix) {
+  return hash_bytes({reinterpret_cast<const char*>(matrix.data()),
+                     sizeof(typename Derived::Scalar) * static_cast<std::size_t>(matrix.size())});
 }
 
 }  // namespace wilt

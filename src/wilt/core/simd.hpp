@@ -10,11 +10,12 @@
 #include <cstddef>
 #include <cstring>
 
+#include "wilt/core/sanitized.hpp"
+
 /// Before a function: its body is compiled for AVX-512, for AVX2 and for any processor, and the program takes
 /// the best that it finds when it starts. What it calls must be inlined (WILT_INLINE), or it is compiled for
 /// any processor only. Sanitizers cannot run the choice at start-up: one version there.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !WILT_SANITIZED
 #define WILT_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define WILT_CLONES

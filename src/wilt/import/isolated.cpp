@@ -19,23 +19,10 @@
 #include <string_view>
 
 #include "wilt/core/error.hpp"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define WILT_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define WILT_SANITIZED 1
-#endif
-#endif
+#include "wilt/core/sanitized.hpp"
 
 namespace wilt::detail {
 namespace {
-
-#ifdef WILT_SANITIZED
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
 
 // The first byte of what the child sends; bytes or a message follow, then kEnd.
 constexpr char kResult = 'r', kError = 'e', kFailure = 'f', kNoMemory = 'm', kEnd = '.';
@@ -74,7 +61,7 @@ void settle_in_child(pid_t parent, rlim_t address_limit, int cpu_seconds) {
   lower_limit(RLIMIT_CPU, static_cast<rlim_t>(cpu_seconds));
   lower_limit(RLIMIT_CORE, 0);
   write_text("/proc/self/oom_score_adj", "1000");  // where memory runs out, this process goes first
-  if (kSanitized) return;
+  if (WILT_SANITIZED) return;
   lower_limit(RLIMIT_AS, address_limit);
   for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}) std::signal(number, SIG_DFL);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);

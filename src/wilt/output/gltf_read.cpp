@@ -10,6 +10,7 @@
 #include "wilt/core/error.hpp"
 #include "wilt/core/file.hpp"
 #include "wilt/core/printable.hpp"
+#include "wilt/core/whole_number.hpp"
 #include "wilt/output/glb_container.hpp"
 #include "wilt/output/gltf.hpp"
 
@@ -215,17 +216,17 @@ Points3 points_from(const Json& rows) {
   return points;
 }
 
-// Numbers beyond a type's range are converted to anything.
-int whole_number(const Json& value) {
-  constexpr std::int64_t kMost = std::numeric_limits<int>::max();
-  if (!value.is_number_integer() || value.get<std::int64_t>() < 0 || value.get<std::int64_t>() > kMost)
-    refuse(fmt::format("a number of its extras is no whole number from 0 to {}", kMost));
-  return value.get<int>();
+int count_from(const Json& value) {
+  const std::optional<int> count = whole_number(value);
+  if (!count)
+    refuse(fmt::format("a number of its extras is no whole number from 0 to {}",
+                       std::numeric_limits<int>::max()));
+  return *count;
 }
 
-std::vector<int> whole_numbers(const Json& list) {
+std::vector<int> counts_from(const Json& list) {
   std::vector<int> numbers;
-  for (const Json& value : list) numbers.push_back(whole_number(value));
+  for (const Json& value : list) numbers.push_back(count_from(value));
   return numbers;
 }
 
@@ -233,14 +234,14 @@ void read_extras(const Json& document, GlbFile& file) {
   const Json& extras = document["asset"]["extras"]["wilt"];
   file.generator = document["asset"].at("generator").get<std::string>();
   file.extras = extras.dump();
-  file.iterations = whole_numbers(extras.at("frames"));
+  file.iterations = counts_from(extras.at("frames"));
   file.dryness = extras.at("dryness").get<std::vector<double>>();
   const int faces = static_cast<int>(file.meshes.front().faces.rows());
   for (const double value : file.dryness)
     if (!(value >= 0.0 && value <= 1.0)) refuse(fmt::format("a dryness is {}, outside 0 to 1", value));
   for (const Json& vein : extras.at("veins")) {
-    GlbVein read{whole_number(vein.at("order")), points_from(vein.at("positions")),
-                 whole_numbers(vein.at("faces")), points_from(vein.at("barycentric"))};
+    GlbVein read{count_from(vein.at("order")), points_from(vein.at("positions")),
+                 counts_from(vein.at("faces")), points_from(vein.at("barycentric"))};
     const auto points = static_cast<std::size_t>(read.positions.rows());
     if (read.faces.size() != points || static_cast<std::size_t>(read.barycentric.rows()) != points)
       refuse("the lists of a vein differ in length");
@@ -266,6 +267,21 @@ void refuse_other_files(const Json& document) {
       if (item.is_object() && item.contains("uri")) refuse(fmt::format("its {} lie in other files", kind));
 }
 
+std::uint64_t size_from(const Json& value) {
+  if (!value.is_number_unsigned()) refuse("a size or an index of its JSON is no whole number");
+  return value.get<std::uint64_t>();
+}
+
+// tinygltf takes the address of an image's first byte before it knows whether there is one.
+void check_images(const Json& document) {
+  for (const Json& image : document.value("images", Json::array())) {
+    const Json& view = document.at("bufferViews").at(size_from(image.at("bufferView")));
+    const Json& buffer = document.at("buffers").at(size_from(view.at("buffer")));
+    if (size_from(view.value("byteOffset", Json(0U))) >= size_from(buffer.at("byteLength")))
+      refuse("an image lies beyond the file's data");
+  }
+}
+
 tinygltf::Model load(std::string_view bytes) {
   if (bytes.size() > std::numeric_limits<unsigned int>::max()) refuse("it is larger than a GLB can be");
   tinygltf::TinyGLTF loader;
@@ -285,6 +301,7 @@ GlbFile read_all(std::string_view bytes, std::string_view json) {
     return true;
   });
   refuse_other_files(document);
+  check_images(document);
   if (!document.contains("/asset/extras/wilt"_json_pointer)) refuse("asset.extras.wilt is missing");
   const tinygltf::Model gltf = load(bytes);
   const Model model(gltf);

@@ -9,6 +9,7 @@
 #include "wilt/core/error.hpp"
 #include "wilt/core/hash.hpp"
 #include "wilt/core/version.hpp"
+#include "wilt/core/whole_number.hpp"
 
 namespace wilt {
 namespace {
@@ -30,17 +31,16 @@ std::string_view take(std::string_view& bytes, std::size_t count) {
   return front;
 }
 
-// Numbers beyond a type's range are converted to anything.
-int whole_number(const Json& json, const char* key) {
-  const Json& value = json.at(key);
-  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > std::numeric_limits<int>::max())
+int count_at(const Json& json, const char* key) {
+  const std::optional<int> count = whole_number(json.at(key));
+  if (!count)
     throw Error(ErrorCode::input,
                 fmt::format("'{}' is no whole number from 0 to {}", key, std::numeric_limits<int>::max()));
-  return value.get<int>();
+  return *count;
 }
 
 Eigen::MatrixXd take_array(std::string_view& bytes, const Json& entry) {
-  const int rows = whole_number(entry, "rows"), columns = whole_number(entry, "columns");
+  const int rows = count_at(entry, "rows"), columns = count_at(entry, "columns");
   const std::uint64_t count = static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(columns);
   if (count > bytes.size() / sizeof(double)) throw Error(ErrorCode::input, "it ends too early");
   const std::string_view numbers = take(bytes, sizeof(double) * static_cast<std::size_t>(count));
@@ -65,7 +65,7 @@ Checkpoint parse(std::string_view bytes) {
   checkpoint.version = json.at("version").get<std::string>();
   checkpoint.config = json.at("config").dump();
   checkpoint.leaf = json.at("leaf").get<std::string>();
-  checkpoint.iteration = whole_number(json, "iteration");
+  checkpoint.iteration = count_at(json, "iteration");
   for (const Json& entry : json.at("arrays"))
     checkpoint.arrays[entry.at("name").get<std::string>()] = take_array(rest, entry);
   if (!rest.empty()) throw Error(ErrorCode::input, fmt::format("{} bytes too many", rest.size()));
@@ -75,11 +75,9 @@ Checkpoint parse(std::string_view bytes) {
 // Chained hashes of arrays.
 class Fingerprint {
  public:
-  template <class Matrix>
-  void add(const Matrix& matrix) {
-    const std::string_view bytes(reinterpret_cast<const char*>(matrix.data()),
-                                 sizeof(typename Matrix::Scalar) * static_cast<std::size_t>(matrix.size()));
-    add_number(hash_bytes(bytes));
+  template <class Derived>
+  void add(const Eigen::PlainObjectBase<Derived>& matrix) {
+    add_number(hash_entries(matrix));
   }
   void add_number(std::uint64_t number) { hash_ = mix_hash(hash_, number); }
   std::string text() const { return fmt::format("{:016x}", hash_); }

@@ -59,7 +59,7 @@ class Simulation::Run {
         metrics_(leaf.mesh, rest_, leaf.petiole, tip_vertices(venation)),
         ring_(leaf.mesh.one_ring(leaf.petiole)),
         integrator_(model_->system(), midpoint_options(config)),
-        watchdog_(leaf.mesh, rest_, config.dt, config.solver.tolerance),
+        watchdog_(config.dt, config.solver.tolerance),
         frames_(frame_iterations(config)) {
     ring_.push_back(leaf.petiole);
     state_.positions = rest_;
@@ -85,21 +85,22 @@ class Simulation::Run {
     if (!report.converged) return stop(iteration, report.reason);
     iteration_ = iteration;
     record();
-    const std::string complaint = watchdog_.complaint(result_.steps.back(), state_.positions,
-                                                      state_.velocities, model_->system().masses());
+    const std::string complaint =
+        watchdog_.complaint(result_.steps.back(), metrics_.max_strain(state_.positions), state_.velocities,
+                            model_->system().masses());
     if (!complaint.empty()) stop(iteration, complaint);
   }
 
   Checkpoint checkpoint() {
     WILT_CHECK(result_.completed, iteration_);
-    Checkpoint checkpoint{version(), to_json(config_), run_fingerprint(leaf_, venation_), iteration_, {}};
+    Checkpoint checkpoint{version(), to_json(config_), fingerprint(), iteration_, {}};
     StateArchive archive = StateArchive::saving(checkpoint.arrays);
     exchange(archive);
     return checkpoint;
   }
 
   void restore(const Checkpoint& checkpoint) {
-    require_same_run(checkpoint, to_json(config_), run_fingerprint(leaf_, venation_));
+    require_same_run(checkpoint, to_json(config_), fingerprint());
     StateArchive archive = StateArchive::restoring(checkpoint.arrays);
     exchange(archive);
     iteration_ = checkpoint.iteration;
@@ -113,10 +114,7 @@ class Simulation::Run {
 
   SimulationResult finish() {
     if (result_.frames.back().iteration != iteration_) record_frame();
-    const Points3& last = result_.frames.back().positions;
-    const std::string_view bytes(reinterpret_cast<const char*>(last.data()),
-                                 sizeof(double) * static_cast<std::size_t>(last.size()));
-    result_.positions_hash = fmt::format("{:016x}", hash_bytes(bytes));
+    result_.positions_hash = fmt::format("{:016x}", hash_entries(result_.frames.back().positions));
     return std::move(result_);
   }
 
@@ -174,6 +172,12 @@ class Simulation::Run {
     exchange_result(archive, result_);
   }
 
+  // Made for the first checkpoint: a pass over the leaf and the distances from all of its tips.
+  const std::string& fingerprint() {
+    if (fingerprint_.empty()) fingerprint_ = run_fingerprint(leaf_, venation_);
+    return fingerprint_;
+  }
+
   // A free leaf's rigid motion is taken out: its petiole's one-ring is laid back on its rest place.
   Points3 in_petiole_frame() const {
     if (config_.pin != "free") return state_.positions;
@@ -197,6 +201,7 @@ class Simulation::Run {
   MotionState state_;
   int iteration_ = 0;
   SimulationResult result_;
+  std::string fingerprint_;  // empty until it is asked for
 };
 
 Simulation::Simulation(const Leaf& leaf, const Venation& venation, const Config& config)

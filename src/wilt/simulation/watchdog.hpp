@@ -4,7 +4,6 @@
 #include <string>
 
 #include "wilt/core/types.hpp"
-#include "wilt/mesh/surface_mesh.hpp"
 #include "wilt/simulation/result.hpp"
 
 namespace wilt {
@@ -23,20 +22,17 @@ inline constexpr double kLargestMotion = 0.5;
 /// on with is watched like one that was never left.
 class Watchdog {
  public:
-  /// `rest` #V x 3. `dt` the run's step, `tolerance` of the residual.
-  Watchdog(const SurfaceMesh& mesh, const Points3& rest, double dt, double tolerance);
+  /// `dt` the run's step, `tolerance` of the residual.
+  Watchdog(double dt, double tolerance) : dt_(dt), tolerance_(tolerance) {}
 
-  /// Why the leaf is not to be believed after a step, and what to do; empty: nothing is amiss. `x` and `v`
-  /// #V x 3, `masses` #V. What is looked at: whether energies, residual and water are finite and the residual
-  /// is within the tolerance; stretch and motion within the limits above. O(#E), deterministic.
-  std::string complaint(const StepRow& row, const Points3& x, const Points3& v,
+  /// Why the leaf is not to be believed after a step, and what to do; empty: nothing is amiss. `max_strain`
+  /// as in FrameMetrics, `v` #V x 3, `masses` #V. What is looked at: whether energies, residual and water are
+  /// finite and the residual is within the tolerance; stretch and motion within the limits above. O(#V),
+  /// deterministic.
+  std::string complaint(const StepRow& row, double max_strain, const Points3& v,
                         const Eigen::VectorXd& masses) const;
 
  private:
-  double largest_stretch(const Points3& x) const;
-
-  Edges edges_;
-  Eigen::VectorXd rest_lengths_;
   double dt_, tolerance_;
 };
 
