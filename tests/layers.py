@@ -1,7 +1,7 @@
 """Checks that every room includes only the rooms that src/wilt/layers.txt allows.
 
-Also checks that no third-party header but Eigen's stands in a public header, that no room includes a header which says
-that it is for "inside the ... room only", and that only apps include import.
+Also checks that no third-party header but Eigen's stands in a public header, and that no room includes a header which says
+that it is for "inside the ... room only".
 Usage: layers.py SOURCE_DIR
 """
 import pathlib

@@ -30,12 +30,12 @@ void print_plan(const std::string& deed, nlohmann::ordered_json facts, const std
 int planned_vertices(const LeafRequest& request, const Monitor& monitor) {
   constexpr int kQuick = 1000;  // meshed in no time
   LeafRequest quick = request;
-  if (is_species(request.leaf) || request.vertices)
-    quick.vertices = std::min(request.vertices.value_or(kQuick), kQuick);
+  if (is_species(request.leaf) || request.read.vertices)
+    quick.read.vertices = std::min(request.read.vertices.value_or(kQuick), kQuick);
   const Leaf leaf = load_leaf(quick, monitor);
   if (!request.veins.empty()) read_file(request.veins);
-  if (is_species(request.leaf)) return request.vertices.value_or(kDefaultVertices);
-  return request.vertices.value_or(leaf.mesh.num_vertices());
+  if (is_species(request.leaf)) return request.read.vertices.value_or(kDefaultVertices);
+  return request.read.vertices.value_or(leaf.mesh.num_vertices());
 }
 
 }  // namespace wilt::cli

@@ -5,8 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "load_leaf.hpp"
 #include "terminal.hpp"
+#include "wilt/run/leaf_request.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace wilt::cli {
 

@@ -13,6 +13,7 @@
 #include "wilt/leaf/species.hpp"
 #include "wilt/output/picture_file.hpp"
 #include "wilt/render/contact_sheet.hpp"
+#include "wilt/run/result_files.hpp"
 
 namespace wilt::cli {
 namespace {
@@ -41,16 +42,16 @@ void run(const std::string& folder_name, const GlobalOptions& options) {
   Terminal terminal(options);
   LeafRequest request;
   request.leaf = "maple";
-  request.vertices = 4000;
+  request.read.vertices = 4000;
   Config config = default_config(species("maple"));
-  config.vertices = *request.vertices;
+  config.vertices = *request.read.vertices;
   WitheredLeaf withered = wither(request, config, terminal);
   if (withered.result.interrupted) throw Error(ErrorCode::interrupted, "interrupted; nothing was written");
   end_on_interrupt();
 
   const std::string clip = (folder / "maple.glb").string(), picture = (folder / "maple.png").string(),
                     sheet = (folder / "stages.png").string(), report = (folder / "report.json").string();
-  ResultFiles files(withered, terminal);
+  ResultFiles files(withered, terminal.monitor());
   files.write(clip);
   write_file(report, report_of(withered));
   files.write(picture);

@@ -7,7 +7,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "load_leaf.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/core/file.hpp"

@@ -7,10 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "load_leaf.hpp"
+#include "leaf_options.hpp"
 #include "plan.hpp"
-#include "result_formats.hpp"
-#include "run.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/core/file.hpp"
@@ -19,6 +17,7 @@
 #include "wilt/mesh/geometry.hpp"
 #include "wilt/output/gltf.hpp"
 #include "wilt/output/obj.hpp"
+#include "wilt/run/result_formats.hpp"
 #include "wilt/simulation/config.hpp"
 #include "wilt/simulation/senescence.hpp"
 #include "wilt/venation/venation.hpp"
@@ -28,6 +27,7 @@ namespace {
 
 struct Request {
   LeafRequest leaf;
+  bool all_leaves = false;
   std::string output;
   bool dry_run = false;
 };
@@ -109,11 +109,11 @@ void add_leaf(CLI::App& app, const GlobalOptions& options) {
                          "  wilt leaf blade.obj -o even.glb --vertices 3000     remeshed\n"
                          "  wilt leaf scan.xyz -o leaf.glb                      a point cloud\n"
                          "  wilt leaf ragged.ply --scan -o leaf.glb             a scanned mesh\n");
-  add_leaf_options(*verb, request->leaf);
+  add_leaf_options(*verb, request->leaf, request->all_leaves);
   verb->add_option("-o,--output", request->output, ".glb or .obj")->type_name("FILE");
   add_dry_run(*verb, request->dry_run);
   verb->callback([request, &options] {
-    for_each_leaf(request->leaf, [&](const LeafRequest& leaf, const auto& name) {
+    for_each_leaf(request->leaf, request->all_leaves, [&](const LeafRequest& leaf, const auto& name) {
       Request one = *request;
       one.leaf = leaf;
       one.output = name(one.output);

@@ -8,8 +8,8 @@
 
 #include "checks.hpp"
 #include "interrupts.hpp"
+#include "leaf_options.hpp"
 #include "plan.hpp"
-#include "result_formats.hpp"
 #include "run.hpp"
 #include "settings_list.hpp"
 #include "verbs.hpp"
@@ -17,6 +17,8 @@
 #include "wilt/core/file.hpp"
 #include "wilt/core/nearest.hpp"
 #include "wilt/core/parallel.hpp"
+#include "wilt/run/result_files.hpp"
+#include "wilt/run/result_formats.hpp"
 #include "wilt/simulation/deformation_model.hpp"
 #include "writing.hpp"
 
@@ -27,6 +29,7 @@ constexpr std::uint64_t kLargestConfig = std::uint64_t{1} << 20;  // bytes
 
 struct Request {
   LeafRequest leaf;
+  bool all_leaves = false;
   std::vector<std::string> outputs, assignments;
   std::string model, config_file, report, forces;
   std::optional<std::int64_t> iterations, frames;
@@ -43,32 +46,30 @@ std::vector<std::string> assignments() {
   return words;
 }
 
-// Defaults of the species, then the file, then the options, then --set: the later wins.
-Config resolve_config(Request& request, bool seed_given) {
-  const std::string file = request.config_file.empty() ? "" : read_file(request.config_file, kLargestConfig);
-  std::string preset = is_species(request.leaf.leaf) ? request.leaf.leaf : "generic";
-  if (const std::string named = species_in_toml(file, request.config_file); !named.empty()) preset = named;
-  for (const std::string& assignment : request.assignments) {
-    if (assignment.rfind("species=", 0) == 0) preset = assignment.substr(8);
-  }
-  Config config = default_config(species("generic"));
-  set(config, "species", preset);  // refuses an unknown one as a setting
-  config = default_config(species(preset));
-  apply_toml(config, file, request.config_file);
-  if (!request.model.empty()) set(config, "model", request.model);
-  if (request.leaf.vertices) set(config, "vertices", std::to_string(*request.leaf.vertices));
-  if (seed_given) config.seed = static_cast<std::int64_t>(request.leaf.seed);
-  if (request.iterations) set(config, "iterations", std::to_string(*request.iterations));
-  if (request.frames) set(config, "frames", std::to_string(*request.frames));
+// What the options say of the settings; --set comes last and wins.
+std::vector<Assignment> assigned(const Request& request, bool seed_given) {
+  std::vector<Assignment> list;
+  const auto number = [&list](const char* key, auto value) {
+    if (value) list.push_back({key, std::to_string(*value)});
+  };
+  if (!request.model.empty()) list.push_back({"model", request.model});
+  number("vertices", request.leaf.read.vertices);
+  if (seed_given) list.push_back({"seed", std::to_string(request.leaf.read.seed)});
+  number("iterations", request.iterations);
+  number("frames", request.frames);
   for (const std::string& assignment : request.assignments) {
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos)
       throw Error(ErrorCode::configuration, fmt::format("--set takes key=value, not '{}'", assignment));
-    set(config, assignment.substr(0, equals), assignment.substr(equals + 1));
+    list.push_back({assignment.substr(0, equals), assignment.substr(equals + 1)});
   }
-  request.leaf.seed = static_cast<std::uint64_t>(config.seed);
-  if (config.vertices > 0) request.leaf.vertices = static_cast<int>(config.vertices);
-  return config;
+  return list;
+}
+
+Config configure(const Request& request, bool seed_given) {
+  const std::string file = request.config_file.empty() ? "" : read_file(request.config_file, kLargestConfig);
+  return resolve_config(is_species(request.leaf.leaf) ? request.leaf.leaf : "generic", file,
+                        request.config_file, assigned(request, seed_given));
 }
 
 void summarise(const WitheredLeaf& withered, Terminal& terminal) {
@@ -118,7 +119,7 @@ void plan(const Request& request, const Config& config, const GlobalOptions& opt
 std::optional<Error> write_all(const Request& request, WitheredLeaf& withered, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   if (withered.result.interrupted) go_on_after_interrupt();
-  ResultFiles files(withered, terminal, request.files);
+  ResultFiles files(withered, terminal.monitor(), request.files);
   Writing writing(terminal);
   for (const std::string& output : request.outputs)
     writing.file(output, [&](const std::string& path) { files.write(path); });
@@ -130,7 +131,8 @@ std::optional<Error> write_all(const Request& request, WitheredLeaf& withered, T
 }
 
 void run(Request& request, bool seed_given, const GlobalOptions& options) {
-  const Config config = resolve_config(request, seed_given);
+  const Config config = configure(request, seed_given);
+  take_size_and_seed(request.leaf, config);
   if (request.print_config) {
     print_data(options.json ? settings_json(config) : to_toml(config, true));
     return;
@@ -184,7 +186,7 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
       "                                                      goes on where it was killed\n"
       "  wilt simulate maple --print-config > run.toml    then edit it, and give it back:\n"
       "  wilt simulate maple -o maple.glb --config run.toml\n");
-  add_leaf_options(*verb, request->leaf);
+  add_leaf_options(*verb, request->leaf, request->all_leaves);
   add_veins_option(*verb, request->leaf);
   verb->get_option("LEAF")->required(false);
   const CLI::Option* seed = verb->get_option("--seed");
@@ -235,7 +237,7 @@ void add_simulate(CLI::App& app, const GlobalOptions& options) {
       ->type_name("N")
       ->check(whole_number(0, 1024));
   verb->callback([request, seed, &options] {
-    for_each_leaf(request->leaf, [&](const LeafRequest& leaf, const auto& name) {
+    for_each_leaf(request->leaf, request->all_leaves, [&](const LeafRequest& leaf, const auto& name) {
       Request one = *request;
       one.leaf = leaf;
       for (std::string& path : one.outputs) path = name(path);

@@ -6,9 +6,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "load_leaf.hpp"
+#include "leaf_options.hpp"
 #include "plan.hpp"
-#include "run.hpp"
 #include "verbs.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/core/file.hpp"
@@ -19,6 +18,7 @@ namespace {
 
 struct Request {
   LeafRequest leaf;
+  bool all_leaves = false;
   std::vector<std::string> outputs;
   bool dry_run = false;
 };
@@ -70,14 +70,14 @@ void add_veins(CLI::App& app, const GlobalOptions& options) {
                          "  wilt veins maple -o veins.svg\n"
                          "  wilt veins drawing.svg -o veins.json -o veins.obj\n"
                          "  wilt veins drawing.svg --veins veins.json -o edited.svg    edited by hand\n");
-  add_leaf_options(*verb, request->leaf);
+  add_leaf_options(*verb, request->leaf, request->all_leaves);
   add_veins_option(*verb, request->leaf);
   verb->add_option("-o,--output", request->outputs, ".json, .svg or .obj; repeatable")
       ->type_name("FILE")
       ->allow_extra_args(false);
   add_dry_run(*verb, request->dry_run);
   verb->callback([request, &options] {
-    for_each_leaf(request->leaf, [&](const LeafRequest& leaf, const auto& name) {
+    for_each_leaf(request->leaf, request->all_leaves, [&](const LeafRequest& leaf, const auto& name) {
       Request one = *request;
       one.leaf = leaf;
       for (std::string& path : one.outputs) path = name(path);

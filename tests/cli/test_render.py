@@ -92,7 +92,7 @@ class Render(unittest.TestCase):
         (self.folder / "folder.png").mkdir()
         self.assertIn("it is a folder", self.refused(5, "poplar.glb", "-o", "folder.png"))
         self.assertIn("absent.glb", self.refused(3, "absent.glb", "-o", "x.png"))
-        self.assertIn("there is no folder", self.refused(5, "poplar.glb", "-o", "absent/x.png"))
+        self.assertIn("the folder 'absent' does not exist", self.refused(5, "poplar.glb", "-o", "absent/x.png"))
         self.assertFalse((self.folder / "x.png").exists())
 
     def test_without_ffmpeg_it_says_what_to_install(self):

@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return true;
   });
   if (applied) {
-    species_in_toml(toml, "run.toml");
+    resolve_config("maple", toml, "run.toml", {});
     fuzz::check_config(config, size % 2 == 0);
   }
   return 0;

@@ -187,6 +187,14 @@ void write_file(const std::string& path, std::string_view bytes) {
   replace_file(path, std::filesystem::canonical(path).string(), status.st_mode & 07777, bytes);
 }
 
+void check_writable(const std::string& path) {
+  const std::string folder = folder_of(path);
+  if (std::filesystem::is_directory(path)) fail(path, EISDIR);
+  if (!std::filesystem::is_directory(folder)) fail(path, std::filesystem::exists(folder) ? ENOTDIR : ENOENT);
+  const bool is_new = !std::filesystem::exists(path);
+  if (::access(is_new ? folder.c_str() : path.c_str(), is_new ? W_OK | X_OK : W_OK) != 0) fail(path, errno);
+}
+
 std::string extension_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

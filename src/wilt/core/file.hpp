@@ -16,6 +16,9 @@ namespace wilt {
 /// path, the reason and what to do; then no temporary file is left.
 void write_file(const std::string& path, std::string_view bytes);
 
+/// Throws Error{output} unless `path` can become a file: its folder exists and may be written to.
+void check_writable(const std::string& path);
+
 /// The end of a file's name in lower case, with its dot: ".glb"; empty when it has none.
 std::string extension_of(const std::string& path);
 

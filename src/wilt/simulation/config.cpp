@@ -193,8 +193,18 @@ void apply_toml(Config& config, std::string_view toml, std::string_view source) 
   apply_table(config, parse(toml, source), "", source);
 }
 
-std::string species_in_toml(std::string_view toml, std::string_view source) {
-  return parse(toml, source)["species"].value_or(std::string());
+Config resolve_config(const std::string& preset, std::string_view toml, std::string_view source,
+                      const std::vector<Assignment>& assignments) {
+  std::string named = parse(toml, source)["species"].value_or(preset);
+  for (const Assignment& assignment : assignments) {
+    if (assignment.key == "species") named = assignment.value;
+  }
+  Config config = default_config(species("generic"));
+  set(config, "species", named);  // refuses an unknown one as a setting
+  config = default_config(species(named));
+  apply_toml(config, toml, source);
+  for (const Assignment& assignment : assignments) set(config, assignment.key, assignment.value);
+  return config;
 }
 
 std::string to_toml(const Config& config, bool commented) {

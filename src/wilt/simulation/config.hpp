@@ -106,8 +106,14 @@ void set(Config& config, std::string_view key, std::string_view value);
 /// Applies a TOML document; `source` names it in messages. Same errors as `set`.
 void apply_toml(Config& config, std::string_view toml, std::string_view source);
 
-/// The value of a document's `species` key, or "" (read first: it decides the other defaults).
-std::string species_in_toml(std::string_view toml, std::string_view source);
+struct Assignment {
+  std::string key, value;  ///< as `set` takes them
+};
+
+/// The configuration of a run: defaults of a species, then the TOML document, then the assignments; the later
+/// wins. The species is `preset` unless one of them names another. Same errors as `set`.
+Config resolve_config(const std::string& preset, std::string_view toml, std::string_view source,
+                      const std::vector<Assignment>& assignments);
 
 /// As TOML that apply_toml takes back, with unit and range in comments when `commented`.
 std::string to_toml(const Config& config, bool commented);

@@ -1,4 +1,4 @@
-#include "result_formats.hpp"
+#include "wilt/run/result_formats.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <map>
 
-#include "run.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/core/file.hpp"
 #include "wilt/game/animation_texture.hpp"
@@ -18,8 +17,9 @@
 #include "wilt/output/point_cache.hpp"
 #include "wilt/output/usd.hpp"
 #include "wilt/output/vtk.hpp"
+#include "wilt/run/result_files.hpp"
 
-namespace wilt::cli {
+namespace wilt {
 namespace {
 
 using Files = std::vector<ResultFile>;
@@ -97,9 +97,9 @@ void write_vat(ResultFiles& result, const std::string& path) {
   const AnimationTextureOptions options{result.options(), result.files().vat_png, result.files().lods};
   const std::vector<WrittenLevel> levels = write_animation_texture(path, result.clip(), options);
   for (std::size_t level = 1; level < levels.size(); ++level)
-    result.terminal().say(fmt::format("level {}: {} of {} triangles, off by {:.2g} mm at most", level,
-                                      levels[level].triangles, levels.front().triangles,
-                                      1e3 * levels[level].deviation));
+    result.monitor().say(fmt::format("level {}: {} of {} triangles, off by {:.2g} mm at most", level,
+                                     levels[level].triangles, levels.front().triangles,
+                                     1e3 * levels[level].deviation));
 }
 
 void write_picture(ResultFiles& result, const std::string& path) {
@@ -226,4 +226,4 @@ void check_results(const std::vector<std::string>& paths, const std::vector<std:
   }
 }
 
-}  // namespace wilt::cli
+}  // namespace wilt

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace wilt::cli {
+namespace wilt {
 
 class ResultFiles;
 
@@ -38,4 +38,4 @@ std::vector<std::string> result_files(const std::vector<std::string>& paths, int
 /// to be written twice with different contents: said before the work. `others`: further files of the run.
 void check_results(const std::vector<std::string>& paths, const std::vector<std::string>& others, int frames);
 
-}  // namespace wilt::cli
+}  // namespace wilt
