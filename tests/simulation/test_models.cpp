@@ -9,6 +9,7 @@
 #include "wilt/mesh/geometry.hpp"
 #include "wilt/simulation/deformation_model.hpp"
 #include "wilt/simulation/drying_fields.hpp"
+#include "wilt/simulation/regions.hpp"
 #include "wilt/simulation/simulate.hpp"
 
 namespace wilt {
