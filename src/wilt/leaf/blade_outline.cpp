@@ -23,6 +23,12 @@ using namespace detail;
 constexpr int kPointsPerSpan = 24;
 constexpr double kToothScatter = 0.012;  // of a single tooth's place, in units of its lobe's vein
 
+// Two numbers in an order of ours: arguments of one call are evaluated in the compiler's.
+Vec2 normal_pair(Random& random) {
+  const double y = random.normal(), x = random.normal();
+  return {x, y};
+}
+
 // One side of the margin, from the petiole to the apex.
 struct Side {
   Polyline points;
@@ -44,7 +50,7 @@ std::vector<MarginNode> scatter_nodes(const OutlineRule& rule, Random& random) {
     const Vec2 across(std::cos(angle), -std::sin(angle));
     for (MarginNode node : lobe.nodes) {
       if (node.kind == NodeKind::tooth) {
-        node.at += kToothScatter * Vec2(random.normal(), random.normal());
+        node.at += kToothScatter * normal_pair(random);
       }
       node.at = width * node.at.x() * across + length * node.at.y() * along;
       nodes.push_back(node);
@@ -109,7 +115,7 @@ class Individual {
       const double length = random.uniform(0.22, 0.6);
       wave.vector = 2.0 * std::numbers::pi / length * Vec2(std::cos(angle), std::sin(angle));
       wave.phase = random.uniform(0.0, 2.0 * std::numbers::pi);
-      wave.amplitude = rule.wave * Vec2(random.normal(), random.normal()) / std::sqrt(double(waves_.size()));
+      wave.amplitude = rule.wave * normal_pair(random) / std::sqrt(double(waves_.size()));
     }
   }
 

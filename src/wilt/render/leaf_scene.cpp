@@ -133,15 +133,19 @@ Surface LeafScene::rim(const Surface& blade) const {
                             tube_reference(line));
     const auto first = static_cast<int>(rim.positions.rows());
     const auto extend = [first](auto& all, const auto& part) {
-      all.conservativeResize(first + part.rows(), 3);
+      all.conservativeResize(first + part.rows(), part.cols());
       all.bottomRows(part.rows()) = part;
     };
-    Points3 ring_colours(shape.positions.rows(), 3);
-    for (int i = 0; i < ring_colours.rows(); ++i)
-      ring_colours.row(i) = colours.row(std::min(i / kRimSides, count - 1));
+    std::vector<int> ring, vertex;  // of each corner: its place in the line, its vertex of the blade
+    for (int i = 0; i < shape.positions.rows(); ++i) {
+      ring.push_back(std::min(i / kRimSides, count - 1));
+      vertex.push_back(loop[std::size_t(ring.back())]);
+    }
     extend(rim.positions, shape.positions);
     extend(rim.normals, shape.normals);
-    extend(rim.colours, ring_colours);
+    extend(rim.colours, Points3(colours(ring, Eigen::all)));
+    extend(rim.rest, Points3(blade.rest(vertex, Eigen::all)));
+    if (blade.water.size() > 0) extend(rim.water, Eigen::VectorXd(blade.water(vertex)));
     const Eigen::Index faces = rim.faces.rows();
     rim.faces.conservativeResize(faces + shape.faces.rows(), 3);
     rim.faces.bottomRows(shape.faces.rows()) = shape.faces.array() + first;
@@ -149,13 +153,16 @@ Surface LeafScene::rim(const Surface& blade) const {
   return rim;
 }
 
-Scene LeafScene::at(double frame) const {
+Scene LeafScene::at(double frame, const Eigen::VectorXd& water) const {
   WILT_CHECK(frame >= 0.0 && frame <= frames() - 1.0, frame, frames());
+  const Points3& rest = file_.meshes.front().frames.front();
+  WILT_CHECK(water.size() == 0 || water.size() == rest.rows(), water.size(), rest.rows());
   Scene scene;
   for (const GlbMesh& mesh : file_.meshes) scene.surfaces.push_back(surface(mesh, frame));
-  for (Surface& solid : scene.surfaces) solid.leaf = false;
+  for (Surface& solid : scene.surfaces) solid.leaf = false, solid.part = Part::stalk;
   Surface& blade = scene.surfaces.front();
-  blade.leaf = true;
+  blade.leaf = true, blade.part = Part::blade;
+  blade.rest = rest, blade.water = water;
   blade.uv = file_.meshes.front().uv;
   if (blade.uv.rows() > 0) blade.colour_map = colour_map_, blade.normal_map = normal_map_;
   blade.finish.relief = relief(frame);

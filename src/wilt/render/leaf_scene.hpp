@@ -23,9 +23,10 @@ class LeafScene {
 
   int frames() const { return static_cast<int>(turns_.size()); }
 
-  /// The scene at `frame`, 0 to frames() - 1; between two frames everything is linear. Throws
-  /// std::logic_error outside. O(#V).
-  Scene at(double frame) const;
+  /// The scene at `frame`, 0 to frames() - 1; between two frames everything is linear. `water` is w / m at
+  /// that frame at the vertices of the file's blade (#S), for labels; or empty. Throws std::logic_error
+  /// outside and for another number of vertices. O(#V).
+  Scene at(double frame, const Eigen::VectorXd& water = {}) const;
 
  private:
   Surface surface(const GlbMesh& mesh, double frame) const;

@@ -9,6 +9,7 @@
 
 #include "wilt/core/error.hpp"
 #include "wilt/core/parallel.hpp"
+#include "wilt/render/lens.hpp"
 #include "wilt/render/light_path.hpp"
 #include "wilt/render/tone.hpp"
 
@@ -29,28 +30,6 @@ double tent(double u) {
   constexpr double kHalfWidth = 0.75;
   return kHalfWidth * (u < 0.5 ? std::sqrt(2.0 * u) - 1.0 : 1.0 - std::sqrt(2.0 - 2.0 * u));
 }
-
-// The camera's rays in world units.
-class Lens {
- public:
-  Lens(const Camera& camera, const World& world, int width, int height)
-      : axes_(camera_axes(camera)), eye_(world.to_world(camera.eye)), width_(width), height_(height) {
-    tangent_ = std::tan(0.5 * camera.field_of_view);
-  }
-
-  Ray ray(double px, double py) const {  // pixels from the top left corner
-    const double step = 2.0 * tangent_ / height_;
-    const Vec3 direction =
-        axes_.forward + (px - 0.5 * width_) * step * axes_.right - (py - 0.5 * height_) * step * axes_.up;
-    return {eye_, direction.normalized()};
-  }
-
- private:
-  CameraAxes axes_;
-  Vec3 eye_;
-  double tangent_ = 0.0;
-  int width_, height_;
-};
 
 // Rounds of kRound samples, until the mean is known well enough or `options.samples` are spent.
 Vec3 pixel_radiance(const LightPath& path, const Lens& lens, const PictureOptions& options, int x, int y) {

@@ -75,6 +75,8 @@ class Refinement {
     };
     append_mean(surface_.colours);
     append_mean(surface_.uv);
+    append_mean(surface_.rest);
+    append_mean(surface_.water);
     surface_.faces = std::move(fine);
   }
 

@@ -43,6 +43,8 @@ void check_surface(const Surface& surface, const std::string& name) {
   rows(surface.colours.rows(), "colours");
   if (surface.normals.rows() > 0) rows(surface.normals.rows(), "normals");
   if (surface.uv.rows() > 0) rows(surface.uv.rows(), "texture coordinates");
+  if (surface.rest.rows() > 0) rows(surface.rest.rows(), "positions at rest");
+  if (surface.water.size() > 0) rows(surface.water.size(), "water fractions");
   if (!surface.positions.allFinite()) fail("a position is not finite");
   if (!surface.normals.allFinite()) fail("a normal is not finite");
   if (!surface.uv.allFinite()) fail("a texture coordinate is not finite");

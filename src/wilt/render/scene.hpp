@@ -1,12 +1,16 @@
 // What a picture shows: surfaces and the light.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "wilt/core/image.hpp"
 #include "wilt/core/types.hpp"
 
 namespace wilt {
+
+/// What labels (label_maps.hpp) call a surface.
+enum class Part : std::uint8_t { background = 0, blade = 1, stalk = 2 };
 
 /// How a surface answers light.
 struct Finish {
@@ -30,6 +34,10 @@ struct Surface {
   Image normal_map;   ///< tangent space as in glTF (x along u, y against v, z out); may be empty
   bool leaf = true;
   Finish finish;
+
+  Part part = Part::blade;  ///< of a leaf; this and the rest is for labels, not drawn
+  Points3 rest;             ///< #V x 3, where the vertices are in the leaf at rest; or empty
+  Eigen::VectorXd water;    ///< #V, w / m, 0 to 1; or empty
 };
 
 struct Scene {
