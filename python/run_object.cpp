@@ -10,13 +10,25 @@
 namespace wilt::python {
 namespace {
 
-using Lock = std::lock_guard<std::mutex>;
+using Lock = std::lock_guard<FairMutex>;
 
 std::unique_ptr<Simulation> at_rest(const Subject& subject) {
   return std::make_unique<Simulation>(subject.leaf->leaf, subject.veins->venation, subject.config);
 }
 
 }  // namespace
+
+void FairMutex::lock() {
+  std::unique_lock<std::mutex> held(mutex_);
+  const std::uint64_t mine = last_++;
+  served_.wait(held, [&] { return serving_ == mine; });
+}
+
+void FairMutex::unlock() {
+  const std::lock_guard<std::mutex> held(mutex_);
+  ++serving_;
+  served_.notify_all();
+}
 
 RunObject::RunObject(std::shared_ptr<const Subject> subject)
     : subject_(std::move(subject)), simulation_(at_rest(*subject_)) {}

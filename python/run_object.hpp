@@ -1,7 +1,8 @@
 // A simulation that Python's threads may share.
 #pragma once
 
-#include <functional>
+#include <condition_variable>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -11,6 +12,18 @@
 #include "wilt/simulation/simulate.hpp"
 
 namespace wilt::python {
+
+/// A mutex that whoever came first gets first: with std::mutex, who steps in a loop keeps all others out.
+class FairMutex {
+ public:
+  void lock();
+  void unlock();
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable served_;
+  std::uint64_t last_ = 0, serving_ = 0;
+};
 
 /// A leaf that withers step by step. Every function waits for the step that another thread is at, and none
 /// touches Python.
@@ -52,7 +65,7 @@ class RunObject {
   void step_once();
 
   std::shared_ptr<const Subject> subject_;
-  mutable std::mutex mutex_;
+  mutable FairMutex mutex_;
   std::unique_ptr<Simulation> simulation_;
   double seconds_ = 0.0;
   std::shared_ptr<StateObject> state_;    // of this iteration, once it was asked for
