@@ -34,6 +34,7 @@ if(WILT_NATIVE)
   find_package(embree 3 REQUIRED)
   find_package(tinyexr REQUIRED)
   find_package(meshoptimizer REQUIRED)
+  find_package(LibArchive REQUIRED)
   find_library(LODEPNG_LIBRARY lodepng REQUIRED)
   # Debian has OpenCV's CMake package only with all of its modules, dozens of them.
   find_path(WILT_OPENCV_INCLUDE opencv2/imgproc.hpp PATH_SUFFIXES opencv4 REQUIRED)
