@@ -12,6 +12,7 @@
 
 #include "wilt/batch/item_files.hpp"
 #include "wilt/batch/manifest.hpp"
+#include "wilt/batch/sha256.hpp"
 #include "wilt/core/file.hpp"
 
 namespace wilt {
@@ -111,12 +112,16 @@ fs::path Batch::failure_file(int item) const {
 }
 
 ItemState Batch::state(int item) {
+  return find(item).first;
+}
+
+std::pair<ItemState, std::string> Batch::find(int item) {
   const std::string made = fingerprint_in(item_folder(item) / kItemLabels);
   const std::string failed = made.empty() ? fingerprint_in(failure_file(item)) : "";
-  if (made.empty() && failed.empty()) return ItemState::missing;
+  if (made.empty() && failed.empty()) return {ItemState::missing, {}};
   const std::string wanted = fingerprints_.of(plan_.item(item));
-  if (made == wanted) return ItemState::whole;
-  if (failed == wanted) return ItemState::failed;
+  if (made == wanted) return {ItemState::whole, wanted};
+  if (failed == wanted) return {ItemState::failed, wanted};
   throw Error(
       ErrorCode::configuration,
       fmt::format(
@@ -164,12 +169,18 @@ void Batch::forget_failure(int item) const {
 
 bool Batch::finish(const Monitor& monitor) {
   std::vector<ItemState> states;
+  std::string all = plan_.text();
   for (int item = 0; item < plan_.count(); ++item) {
     monitor.throw_if_cancelled();
-    states.push_back(state(item));
-    if (states.back() == ItemState::missing) return false;
+    const auto [state, fingerprint] = find(item);
+    if (state == ItemState::missing) return false;
+    states.push_back(state);
+    all += fmt::format("{} {}\n", static_cast<int>(state), fingerprint);
   }
+  const std::string stamp = (folder_ / ".finished").string(), now = sha256(all) + "\n";
+  if (fs::exists(stamp) && read_file(stamp) == now) return true;
   write_manifest(plan_, folder_, states, monitor);
+  write_file(stamp, now);
   return true;
 }
 

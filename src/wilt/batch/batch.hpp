@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "wilt/batch/item_fingerprint.hpp"
 #include "wilt/batch/plan.hpp"
@@ -42,8 +43,8 @@ class Batch {
   /// Forgets failures, so that the item will be tried again.
   void forget_failure(int item) const;
 
-  /// When every item of the plan is whole or has failed: writes the manifest and the layouts, whose bytes do
-  /// not depend on who made which item when, and returns true. Otherwise false.
+  /// When every item of the plan is whole or has failed: writes the manifest and the layouts, unless that was
+  /// done, and returns true. Otherwise false. Their bytes do not depend on who made which item when.
   bool finish(const Monitor& monitor = {});
 
   const Plan& plan() const { return plan_; }
@@ -51,6 +52,7 @@ class Batch {
 
  private:
   std::filesystem::path failure_file(int item) const;
+  std::pair<ItemState, std::string> find(int item);  ///< with its fingerprint
 
   const Plan& plan_;
   std::filesystem::path folder_;

@@ -145,6 +145,9 @@ class Reader {
     std::sort(plan_.variables.begin(), plan_.variables.end(),
               [](const Variable& a, const Variable& b) { return a.key < b.key; });
     check();
+    std::vector<std::string>& maps = plan_.outputs.pictures.maps;
+    if (plan_.outputs.coco && std::find(maps.begin(), maps.end(), "leaf") == maps.end())
+      maps.push_back("leaf");
     plan_.count = static_cast<int>(count.value_or(std::min<std::int64_t>(grid_cells(plan_), kMostItems)));
   }
 
