@@ -10,6 +10,7 @@
 
 #include "wilt/core/error.hpp"
 #include "wilt/core/file.hpp"
+#include "wilt/core/file_writer.hpp"
 
 namespace wilt {
 namespace {
@@ -54,6 +55,24 @@ mode_t mode_of(const std::string& path) {
 void expect_in(const std::string& message, std::initializer_list<const char*> parts) {
   for (const char* part : parts)
     EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
+}
+
+// Oracle: the pieces. Before the end the old file stands; what is not finished leaves nothing.
+TEST_F(WriteFile, WritesPiecesWholeOrNotAtAll) {
+  write_file(path("a"), "old");
+  ASSERT_EQ(::chmod(path("a").c_str(), 0640), 0);
+  {
+    FileWriter dropped(path("a"));
+    dropped.write("dropped");
+  }
+  FileWriter writer(path("a"));
+  const std::string piece(100000, 'p');
+  for (int i = 0; i < 30; ++i) writer.write(piece);
+  EXPECT_EQ(read_file(path("a")), "old");
+  writer.finish();
+  EXPECT_EQ(read_file(path("a")).size(), 30 * piece.size());
+  EXPECT_EQ(mode_of(path("a")), 0640U);
+  EXPECT_EQ(entries(), 1);
 }
 
 // Oracle: what was written.

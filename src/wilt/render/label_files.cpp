@@ -22,11 +22,16 @@ constexpr double kMostLevels = 65535.0;
 constexpr double kNormalZero = 32768.0, kNormalScale = 32767.0;
 constexpr std::array kNames{"leaf", "part", "vein", "water", "depth", "normals"};
 
+// As it is said: left to itself, the encoder makes palettes, and 8 bits of 16 where that loses nothing.
 std::string png(const LabelMaps& maps, const std::vector<unsigned char>& bytes, LodePNGColorType colours,
                 unsigned bits) {
+  lodepng::State state;
+  state.encoder.auto_convert = 0;
+  for (LodePNGColorMode* mode : {&state.info_raw, &state.info_png.color})
+    mode->colortype = colours, mode->bitdepth = bits;
   std::vector<unsigned char> encoded;
   const unsigned error = lodepng::encode(encoded, bytes, static_cast<unsigned>(maps.width),
-                                         static_cast<unsigned>(maps.height), colours, bits);
+                                         static_cast<unsigned>(maps.height), state);
   if (error != 0)
     throw Error(ErrorCode::output, fmt::format("labels of {} x {} pixels cannot be encoded as PNG: {}",
                                                maps.width, maps.height, lodepng_error_text(error)));
@@ -138,9 +143,9 @@ const std::vector<LabelKind>& all_label_kinds() {
 
 double depth_unit(const LabelMaps& maps) {
   const double farthest = depth_range(maps)[1];
-  for (double power = 1e-6;; power *= 10.0)
+  for (double per_metre = 1e6;; per_metre /= 10.0)
     for (const double factor : {1.0, 2.0, 5.0})
-      if (farthest <= kMostLevels * factor * power) return factor * power;
+      if (farthest <= kMostLevels * (factor / per_metre)) return factor / per_metre;
 }
 
 std::vector<std::string> write_label_maps(const std::string& stem, const LabelMaps& maps,
