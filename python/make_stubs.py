@@ -1,8 +1,8 @@
 """Writes the type stubs of the extension wilt._core from the signatures and docstrings that pybind11 gives it.
 
-Usage: make_stubs.py PYTHONPATH OUTPUT
+Usage: make_stubs.py EXTENSION OUTPUT
 """
-import importlib
+import importlib.util
 import inspect
 import pathlib
 import re
@@ -19,6 +19,8 @@ TYPES = [(r"wilt\._core\.", ""), (r"numpy\.ndarray\[numpy\.(\w+)\]", r"numpy.typ
          (r"os\.PathLike", "Union[str, os.PathLike[str]]"), (r"\bDict\b", "dict"), (r"\bList\b", "list"),
          (r"(?<![\w.])handle\b", "Any"), (r"(?<![\w.])function\b", "Callable[..., Any]"), (r"(?<![\w.])object\b", "Any"),
          (r"Annotated\[list\[float\], FixedSize\(2\)\]|list\[float\[2\]\]", "Tuple[float, float]"),
+         (r"\b(dict)\b(?!\[)", r"dict[str, Any]"), (r"\b(list)\b(?!\[)", r"list[Any]"),
+         (r"(\w+): (?!Optional|Any\b)([\w.]+) = None", r"\1: Optional[\2] = None"),
          (r"\*args(?=[,)])", "*args: Any"), (r"\*\*kwargs(?=[,)])", "**kwargs: Any")]
 
 
@@ -40,10 +42,9 @@ def split_doc(name, doc):
 def docstring(words, indent):
     if not words:
         return []
-    lines = words.replace("\\", "\\\\").replace('"""', "'''").splitlines()
-    lines = [f'{indent}"""{lines[0]}', *(indent + line if line else "" for line in lines[1:])]
-    lines[-1] += ('" ' if lines[-1].endswith('"') else "") and ""
-    return lines[:-1] + [lines[-1] + (' """' if lines[-1].endswith('"') else '"""')]
+    text = words.replace("\\", "\\\\").replace('"""', "'''")
+    text = f'"""{text}{" " if text.endswith(chr(34)) else ""}"""'
+    return [indent + line if line else "" for line in text.splitlines()]
 
 
 def function(name, doc, indent, decorator=None):
@@ -66,9 +67,7 @@ def class_stub(cls):
     lines = ["", "", f"class {cls.__name__}{'(' + bases[0] + ')' if bases else ''}:"]
     lines += docstring(inspect.cleandoc(cls.__doc__ or ""), "    ")
     for name, member in vars(cls).items():
-        if name.startswith("_") and name not in ("__init__", "__iter__", "__next__", "__enter__", "__exit__"):
-            continue
-        if name == "__init__" and "instance" in type(member).__name__ and not (member.__doc__ or "").startswith("__init__("):
+        if name.startswith("_") and name not in ("__init__", "__iter__", "__next__", "__len__", "__enter__", "__exit__"):
             continue
         if name == "__init__" and not (member.__doc__ or "").startswith("__init__("):
             continue  # made by functions only
@@ -83,10 +82,10 @@ def class_stub(cls):
 
 
 def main():
-    path, output = sys.argv[1:]
-    sys.path.insert(0, path)
-    sys.dont_write_bytecode = True
-    core = importlib.import_module("wilt._core")
+    extension, output = sys.argv[1:]
+    spec = importlib.util.spec_from_file_location("wilt._core", extension)
+    core = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(core)
     lines = [HEAD + "\n__version__: str"]
     for name, member in vars(core).items():
         if inspect.isclass(member):

@@ -11,5 +11,6 @@ PYBIND11_MODULE(_core, m) {
   wilt::python::bind_frames(m);
   wilt::python::bind_result(m);
   wilt::python::bind_simulation(m);
+  wilt::python::bind_plan(m);
   wilt::python::bind_reproduce(m);
 }
