@@ -23,23 +23,11 @@ struct Request {
   bool dry_run = false;
 };
 
-using Writer = std::string (*)(const Leaf&, const Venation&);
-
-Writer writer_for(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension == ".json")
-    return [](const Leaf& leaf, const Venation& veins) { return veins_json(leaf, veins); };
-  if (extension == ".svg") return veins_svg;
-  if (extension == ".obj") return veins_obj;
-  throw Error(ErrorCode::configuration,
-              fmt::format("cannot write '{}': veins are .json, .svg or .obj", path));
-}
-
 void run(const Request& request, const GlobalOptions& options) {
   if (request.outputs.empty() && !options.json)
     throw Error(ErrorCode::configuration, "nothing would be written; add -o veins.svg");
   for (const std::string& path : request.outputs) {
-    writer_for(path);
+    veins_writer(path);
     check_writable(path);
   }
   Terminal terminal(options);
@@ -53,7 +41,7 @@ void run(const Request& request, const GlobalOptions& options) {
   const Venation venation = load_veins(request.leaf, leaf, species(leaf.species).secondary, {}, monitor);
   terminal.say(fmt::format("{}: {} tips, {} veins", leaf.name, venation.tips.size(), venation.veins.size()));
   for (const std::string& path : request.outputs) {
-    write_file(path, writer_for(path)(leaf, venation));
+    write_file(path, veins_writer(path)(leaf, venation));
     terminal.say("wrote " + path);
   }
   if (options.json) print_data(veins_json(leaf, venation) + "\n");

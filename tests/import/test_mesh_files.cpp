@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstring>
 #include <set>
 
@@ -158,6 +159,59 @@ TEST_F(MeshFile, RefusesWhatIsNoSheet) {
     moebius += fmt::format("f {} {} {}\nf {} {} {}\n", a, c, b, b, c, d);
   }
   EXPECT_NE(refusal(write("moebius.obj", moebius)).find("one side"), std::string::npos);
+}
+
+// Oracle: the same sheet as a file, which holds it in single precision.
+TEST_F(MeshFile, ArraysAreReadAsAFileIs) {
+  const SheetFile sheet;
+  const Leaf file = read_leaf(write("sheet.obj", sheet.obj()));
+  const MeshArrays arrays{file.positions, file.mesh.face_matrix(), {}, static_cast<int>(file.petiole)};
+  const Leaf leaf = leaf_from_arrays(arrays, "mine");
+  EXPECT_EQ(leaf.name, "mine");
+  EXPECT_EQ(leaf.petiole, file.petiole);
+  EXPECT_LT((leaf.positions - file.positions).cwiseAbs().maxCoeff(), 1e-12 * leaf_length(file));
+  EXPECT_TRUE(test::has_note(leaf, "no texture coordinates")) << test::notes_of(leaf);
+  // With the seam of its skin: one position twice, two texture coordinates.
+  MeshArrays skinned{Points3(file.skin.uv.rows(), 3), file.skin.faces, file.skin.uv, {}};
+  for (std::size_t k = 0; k < file.skin.vertex.size(); ++k)
+    skinned.positions.row(static_cast<int>(k)) = file.positions.row(file.skin.vertex[k]);
+  const Leaf seamed = leaf_from_arrays(skinned, "seamed");
+  EXPECT_EQ(seamed.mesh.num_vertices(), file.mesh.num_vertices());
+  EXPECT_EQ(seamed.skin.uv.rows(), file.skin.uv.rows());
+}
+
+// Oracle: planted faults, each named; and a margin vertex beside an inner petiole.
+TEST(MeshArrays, AreRefusedOrMendedLikeAFile) {
+  Points3 square(5, 3);
+  square << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0.4, 0;
+  Faces fan(4, 3);
+  fan << 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4;
+  const auto refusal = [](const MeshArrays& mesh) -> std::string {
+    try {
+      leaf_from_arrays(mesh, "mine");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal({square, fan, {}, {}}), "");
+  Faces beyond = fan;
+  beyond(2, 1) = 5;
+  EXPECT_EQ(refusal({square, beyond, {}, {}}),
+            "'mine': face 2 has vertex 5, but there are 5 (counted from 0); remove the face");
+  beyond(2, 1) = -1;
+  EXPECT_NE(refusal({square, beyond, {}, {}}).find("vertex -1"), std::string::npos);
+  EXPECT_NE(refusal({square, Faces(0, 3), {}, {}}).find("no face"), std::string::npos);
+  EXPECT_NE(refusal({square, fan, Points2(4, 2), {}}).find("4 texture coordinates"), std::string::npos);
+  EXPECT_NE(refusal({square, fan, {}, 5}).find("petiole is position 5"), std::string::npos);
+  Points3 broken = square;
+  broken(3, 1) = std::nan("");
+  EXPECT_NE(refusal({broken, fan, {}, {}}).find("finite"), std::string::npos);
+  const Leaf leaf = leaf_from_arrays({square, fan, {}, 2}, "mine");
+  EXPECT_NEAR((leaf.positions.row(leaf.petiole)).norm(), 0.0, 0.0);
+  EXPECT_NEAR(leaf_length(leaf), std::sqrt(2.0), 1e-15);
+  const Leaf inner = leaf_from_arrays({square, fan, {}, 4}, "mine");  // nearest: 0 or 1, the first of them
+  EXPECT_TRUE(inner.mesh.is_boundary(inner.petiole));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "wilt/mesh/geometry.hpp"
 #include "wilt/simulation/deformation_model.hpp"
 #include "wilt/simulation/drying_fields.hpp"
+#include "wilt/simulation/regions.hpp"
 #include "wilt/simulation/simulate.hpp"
 
 namespace wilt {
@@ -92,6 +93,54 @@ TEST_P(EveryModel, KeepsWhatWasComputedWhenInterrupted) {
   EXPECT_FALSE(result.completed);
   EXPECT_EQ(result.steps.size(), 5u);
   EXPECT_EQ(result.frames.back().iteration, 5);
+}
+
+// Oracle: what the run records of itself, bit by bit, by other functions: frames, metrics, forces by region,
+// energies. A free leaf's petiole is laid back on its place; halved steps put the motion elsewhere in memory.
+TEST_P(EveryModel, ShowsTheStateThatItRecords) {
+  for (const char* pin : {"ring", "free"}) {
+    Case c = make_case("ivy", GetParam());
+    c.config.pin = pin;
+    c.config.frames = c.config.iterations + 1;
+    Simulation simulation(c.leaf, c.venation, c.config);
+    const VertexData<Region> regions = leaf_regions(c.leaf, c.venation);
+    EXPECT_DOUBLE_EQ(simulation.scale() * leaf_length(c.leaf), kWorkingLength);
+    for (; !simulation.ended(); simulation.step()) {
+      const SimulationResult& recorded = simulation.result();
+      const Frame now = simulation.frame();
+      EXPECT_EQ(now.iteration, simulation.iteration());
+      EXPECT_EQ(now.positions, recorded.frames.back().positions);
+      EXPECT_EQ(now.stalk, recorded.frames.back().stalk);
+      EXPECT_EQ(now.dryness, recorded.frames.back().dryness);
+      EXPECT_EQ(now.water_fraction, recorded.frames.back().water_fraction);
+      EXPECT_EQ(simulation.metrics().curl, recorded.metrics.back().curl);
+      EXPECT_EQ(simulation.metrics().wrinkle, recorded.metrics.back().wrinkle);
+      const MotionState& motion = simulation.motion();
+      const auto rows = force_rows(regions, simulation.model(), motion.positions, motion.velocities,
+                                   simulation.iteration());
+      EXPECT_EQ(rows.back().elastic, recorded.forces.back().elastic);
+      EXPECT_EQ(rows.back().pressure, recorded.forces.back().pressure);
+      if (simulation.iteration() > 0) {
+        EXPECT_EQ(simulation.model().water().sum(), recorded.steps.back().water);
+      }
+    }
+  }
+}
+
+// Oracle: the run that goes on to its end and the one that ends there.
+TEST_P(EveryModel, GivesItsResultAndGoesOn) {
+  const Case c = make_case("poplar", GetParam());
+  Simulation simulation(c.leaf, c.venation, c.config);
+  for (int k = 0; k < 7; ++k) simulation.step();
+  const SimulationResult early = simulation.finish();
+  EXPECT_EQ(early.frames.back().iteration, 7);
+  EXPECT_EQ(early.metrics.back().iteration, 7);
+  EXPECT_EQ(early.frames.size(), 2u);
+  EXPECT_EQ(simulation.result().frames.size(), 1u);
+  while (!simulation.ended()) simulation.step();
+  const SimulationResult whole = run(c);
+  EXPECT_EQ(simulation.finish().positions_hash, whole.positions_hash);
+  EXPECT_EQ(std::move(simulation).finish().positions_hash, whole.positions_hash);
 }
 
 // Oracle: planted; the mesh on which the printed form fails.

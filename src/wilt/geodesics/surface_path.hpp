@@ -38,8 +38,8 @@ FaceId common_face(const SurfaceMesh& mesh, const SurfacePoint& a, const Surface
 
 /// A polyline on the surface; consecutive points share a face (`common_face`).
 struct SurfacePath {
-  std::vector<SurfacePoint> points;
-  double length = 0.0;
+  std::vector<SurfacePoint> points;  ///< #K, from the first to the last
+  double length = 0.0;               ///< in the unit of the surface's positions
 };
 
 }  // namespace wilt

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,7 @@ struct TriangleSoup {
   Points2 uv;                      ///< #S x 2, origin top left; not a number where the file gives none
   Faces faces;                     ///< #F x 3
   std::vector<std::string> notes;  ///< what was left out
+  std::optional<Vec3> petiole{};   ///< where the stalk meets the blade, if that is known
 };
 
 /// File coordinates (Y up) to ours (Z up) and back.

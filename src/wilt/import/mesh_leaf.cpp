@@ -15,9 +15,17 @@
 namespace wilt::detail {
 namespace {
 
-// Given or guessed.
-VertexId petiole_of(const Sheet& sheet, const ReadOptions& options, std::vector<std::string>& notes) {
+VertexId nearest_on_margin(const std::vector<VertexId>& margin, const Points3& positions, const Vec3& place) {
+  const auto distance = [&](VertexId v) { return (positions.row(v).transpose() - place).squaredNorm(); };
+  return *std::min_element(margin.begin(), margin.end(),
+                           [&](VertexId a, VertexId b) { return distance(a) < distance(b); });
+}
+
+// Known, given or guessed.
+VertexId petiole_of(const TriangleSoup& soup, const Sheet& sheet, const ReadOptions& options,
+                    std::vector<std::string>& notes) {
   const std::vector<VertexId>& margin = margin_loop(sheet.mesh, sheet.positions);
+  if (soup.petiole) return nearest_on_margin(margin, sheet.positions, *soup.petiole);
   const Points2 flat = project_to_plane(sheet.mesh, sheet.positions);
   Points2 ring(static_cast<int>(margin.size()), 2);
   Points3 places(static_cast<int>(margin.size()), 3);
@@ -49,7 +57,7 @@ Leaf leaf_from_mesh(const TriangleSoup& soup, const std::string& name, const Rea
   monitor.report("repairing the mesh", 0.0);
   Sheet sheet = repair_surface(soup, leaf.notes);
   monitor.throw_if_cancelled();
-  VertexId petiole = petiole_of(sheet, options, leaf.notes);
+  VertexId petiole = petiole_of(soup, sheet, options, leaf.notes);
   if (options.vertices) {
     const int before = sheet.mesh.num_vertices();
     Remeshed fresh = remesh(sheet, petiole, *options.vertices, monitor);

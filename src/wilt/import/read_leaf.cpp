@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 
 #include "wilt/core/error.hpp"
@@ -143,12 +144,42 @@ auto naming(const std::filesystem::path& file, const Read& read) {
 }
 
 // Squares and cubes of lengths must be numbers too. Odd lengths within these have their note.
-void check_length(double length, const std::filesystem::path& file) {
+void check_length(double length, const std::string& name) {
   constexpr double kLeast = 1e-15, kMost = 1e15;  // metres
   if (!(length >= kLeast && length <= kMost))
     throw Error(ErrorCode::input,
                 fmt::format("'{}': the leaf would be {:.3g} m long; {:g} to {:g} are allowed: mend its scale",
-                            file.filename().string(), length, kLeast, kMost));
+                            name, length, kLeast, kMost));
+}
+
+void check_indices(const MeshArrays& mesh) {
+  const Eigen::Index count = mesh.positions.rows();
+  if (mesh.faces.rows() == 0) throw Error(ErrorCode::input, "there is no face; a leaf needs triangles");
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    for (const int v : {mesh.faces(f, 0), mesh.faces(f, 1), mesh.faces(f, 2)}) {
+      if (v < 0 || v >= count)
+        throw Error(ErrorCode::input, fmt::format("face {} has vertex {}, but there are {} (counted from 0); "
+                                                  "remove the face",
+                                                  f, v, count));
+    }
+  }
+  if (mesh.uv.rows() != 0 && mesh.uv.rows() != count)
+    throw Error(ErrorCode::input,
+                fmt::format("there are {} texture coordinates for {} positions; give one for "
+                            "each, or none",
+                            mesh.uv.rows(), count));
+  if (mesh.petiole && (*mesh.petiole < 0 || *mesh.petiole >= count))
+    throw Error(ErrorCode::input, fmt::format("the petiole is position {}, but there are {} (counted from 0)",
+                                              *mesh.petiole, count));
+}
+
+detail::TriangleSoup soup_of(const MeshArrays& mesh) {
+  check_indices(mesh);
+  detail::TriangleSoup soup{mesh.positions, mesh.uv, mesh.faces, {}};
+  if (mesh.uv.rows() == 0)
+    soup.uv.setConstant(mesh.positions.rows(), 2, std::numeric_limits<double>::quiet_NaN());
+  if (mesh.petiole) soup.petiole = mesh.positions.row(*mesh.petiole).transpose();
+  return soup;
 }
 
 }  // namespace
@@ -168,8 +199,16 @@ Leaf read_leaf(const std::filesystem::path& file, const ReadOptions& options, co
                             joined(leaf_file_extensions())));
   validate(options, extension);
   Leaf leaf = naming(file, [&] { return read(file, options, monitor); });
-  check_length(leaf_length(leaf), file);
+  check_length(leaf_length(leaf), file.filename().string());
   for (const std::string& note : leaf.notes) monitor.say(note);
+  return leaf;
+}
+
+Leaf leaf_from_arrays(const MeshArrays& mesh, const std::string& name, const ReadOptions& options,
+                      const Monitor& monitor) {
+  validate(options, ".obj");
+  Leaf leaf = naming(name, [&] { return detail::leaf_from_mesh(soup_of(mesh), name, options, monitor); });
+  check_length(leaf_length(leaf), name);
   return leaf;
 }
 

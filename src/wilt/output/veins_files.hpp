@@ -33,4 +33,10 @@ std::string veins_svg(const Leaf& leaf, const Venation& venation);
 /// Polylines (`l`), one object per vein, Y up, coordinates of coordinates.hpp.
 std::string veins_obj(const Leaf& leaf, const Venation& venation);
 
+using VeinsWriter = std::string (*)(const Leaf&, const Venation&);
+
+/// What makes the text of a file of this name: .json, .svg or .obj, as above. Throws Error{configuration} for
+/// another.
+VeinsWriter veins_writer(const std::string& path);
+
 }  // namespace wilt

@@ -11,9 +11,9 @@ namespace wilt {
 
 /// The leaf at one iteration. Metres, leaf frame (leaf.hpp), the droop of the petiole included.
 struct Frame {
-  int iteration = 0;
-  Points3 positions;               ///< #V x 3
-  Points3 stalk;                   ///< #K x 3, the stalk's centreline
+  int iteration = 0;               ///< 0: at rest
+  Points3 positions;               ///< #V x 3, metres
+  Points3 stalk;                   ///< #K x 3, metres, the stalk's centreline
   Eigen::VectorXd water_fraction;  ///< #V, w / m
   Eigen::VectorXd dryness;         ///< #V, 0 (fresh) to 1 (dry): (w_0 - w) / (d w_0), clipped
 };
@@ -21,10 +21,10 @@ struct Frame {
 /// Section 7 of docs/method.md; taken at every frame.
 struct FrameMetrics {
   int iteration = 0;
-  double wrinkle = 0.0;  ///< RMS over interior vertices, in units of the leaf's length
-  double curl = 0.0;     ///< radians, mean over the tips
-  double area_ratio = 1.0;
-  double projected_area_ratio = 1.0;  ///< area seen along the rest blade's mean normal
+  double wrinkle = 0.0;               ///< RMS over interior vertices, in units of the leaf's length
+  double curl = 0.0;                  ///< radians, mean over the tips
+  double area_ratio = 1.0;            ///< the blade's area over its area at rest
+  double projected_area_ratio = 1.0;  ///< the same of the area seen along the rest blade's mean normal
   double max_strain = 0.0;            ///< largest |l / l_rest - 1| of any edge
   int self_intersections = 0;         ///< pairs of triangles that intersect
 };
@@ -58,9 +58,9 @@ struct SimulationResult {
   std::vector<FrameMetrics> metrics;  ///< one per frame
   std::vector<StepRow> steps;
   std::vector<ForceRow> forces;
-  bool completed = true;     ///< false: stopped early; `stop_reason` says why, what was computed is kept
-  bool interrupted = false;  ///< the user asked to stop
-  std::string stop_reason;
+  bool completed = true;       ///< false: stopped early; `stop_reason` says why, what was computed is kept
+  bool interrupted = false;    ///< the user asked to stop
+  std::string stop_reason;     ///< empty: completed
   std::string note;            ///< what the model did otherwise than its name says; empty: nothing
   std::string positions_hash;  ///< FNV-1a over the last frame's positions, 16 hexadecimal digits
 };

@@ -10,7 +10,6 @@
 #include "wilt/core/hash.hpp"
 #include "wilt/core/version.hpp"
 #include "wilt/mechanics/implicit_midpoint.hpp"
-#include "wilt/simulation/deformation_model.hpp"
 #include "wilt/simulation/metrics.hpp"
 #include "wilt/simulation/regions.hpp"
 #include "wilt/simulation/watchdog.hpp"
@@ -72,6 +71,11 @@ class Simulation::Run {
   int last_iteration() const { return static_cast<int>(config_.iterations); }
   bool ended() const { return !result_.completed || iteration_ >= last_iteration(); }
   const SimulationResult& result() const { return result_; }
+  Frame frame() const { return frame_of(in_petiole_frame()); }
+  FrameMetrics metrics() const { return metrics_.measure(in_petiole_frame(), iteration_); }
+  const MotionState& motion() const { return state_; }
+  const DeformationModel& model() const { return *model_; }
+  double scale() const { return scale_; }
 
   void step() {
     const int iteration = iteration_ + 1;
@@ -112,11 +116,13 @@ class Simulation::Run {
                                                 result_.steps.size(), result_.frames.size(), iteration_));
   }
 
-  SimulationResult finish() {
-    if (result_.frames.back().iteration != iteration_) record_frame();
-    result_.positions_hash = fmt::format("{:016x}", hash_entries(result_.frames.back().positions));
-    return std::move(result_);
+  // `result` is what was recorded.
+  SimulationResult finish(SimulationResult result) const {
+    if (result.frames.back().iteration != iteration_) record_frame(result);
+    result.positions_hash = fmt::format("{:016x}", hash_entries(result.frames.back().positions));
+    return result;
   }
+  SimulationResult take_result() { return std::move(result_); }
 
  private:
   StepRow row_of(const StepReport& report, int iteration) const {
@@ -140,11 +146,17 @@ class Simulation::Run {
   void record() {
     const auto rows = force_rows(regions_, *model_, state_.positions, state_.velocities, iteration_);
     result_.forces.insert(result_.forces.end(), rows.begin(), rows.end());
-    if (std::binary_search(frames_.begin(), frames_.end(), iteration_)) record_frame();
+    if (std::binary_search(frames_.begin(), frames_.end(), iteration_)) record_frame(result_);
   }
 
-  void record_frame() {
+  void record_frame(SimulationResult& result) const {
     const Points3 held = in_petiole_frame();
+    result.frames.push_back(frame_of(held));
+    result.metrics.push_back(metrics_.measure(held, iteration_));
+  }
+
+  // `held` as in_petiole_frame() has it.
+  Frame frame_of(const Points3& held) const {
     const DeformationModel::Hanging hanging = model_->hanging();
     Frame frame;
     frame.iteration = iteration_;
@@ -153,8 +165,7 @@ class Simulation::Run {
     frame.stalk = hanging.stalk / scale_;
     frame.water_fraction = model_->water().cwiseQuotient(model_->water() + model_->dry_mass());
     frame.dryness = model_->dryness();
-    result_.frames.push_back(std::move(frame));
-    result_.metrics.push_back(metrics_.measure(held, iteration_));
+    return frame;
   }
 
   void stop(int iteration, const std::string& reason) {
@@ -237,8 +248,32 @@ void Simulation::restore(const Checkpoint& checkpoint) {
   run_->restore(checkpoint);
 }
 
+Frame Simulation::frame() const {
+  return run_->frame();
+}
+
+FrameMetrics Simulation::metrics() const {
+  return run_->metrics();
+}
+
+const MotionState& Simulation::motion() const {
+  return run_->motion();
+}
+
+const DeformationModel& Simulation::model() const {
+  return run_->model();
+}
+
+double Simulation::scale() const {
+  return run_->scale();
+}
+
 SimulationResult Simulation::finish() && {
-  return run_->finish();
+  return run_->finish(run_->take_result());
+}
+
+SimulationResult Simulation::finish() const& {
+  return run_->finish(run_->result());
 }
 
 SimulationResult simulate(Simulation simulation, const Monitor& monitor,

@@ -7,6 +7,7 @@
 #include "wilt/core/monitor.hpp"
 #include "wilt/simulation/checkpoint.hpp"
 #include "wilt/simulation/config.hpp"
+#include "wilt/simulation/deformation_model.hpp"
 #include "wilt/simulation/result.hpp"
 
 namespace wilt {
@@ -35,6 +36,18 @@ class Simulation {
   /// What has been recorded until now.
   const SimulationResult& result() const;
 
+  /// The leaf as it is now, as a frame would record it.
+  Frame frame() const;
+  /// The metrics of frame().
+  FrameMetrics metrics() const;
+  /// Positions, velocities and so on, #V x 3 each, working units (kWorkingLength), per time unit of
+  /// `config.dt`; where the petiole holds the blade before it droops. The next step changes what is referred
+  /// to, and may put it elsewhere.
+  const MotionState& motion() const;
+  /// Water, masses, pressure, dryness and the forces at motion(); working units. The same holds.
+  const DeformationModel& model() const;
+  double scale() const;  ///< working units per metre
+
   /// What the run must remember to go on from here. Not of one that has stopped.
   Checkpoint checkpoint() const;
   /// Goes on from there: every number of the result will be as if the run had never been left. Throws
@@ -44,6 +57,8 @@ class Simulation {
 
   /// Ends the run here: the result, with a frame of the last iteration.
   SimulationResult finish() &&;
+  /// The same of a run that may go on: its first frames, steps and so on are result()'s.
+  SimulationResult finish() const&;
 
  private:
   class Run;

@@ -36,6 +36,7 @@ struct VenationOptions {
   void validate() const;  ///< throws Error{configuration}
 };
 
+/// Where a leaf's veins are, and how far from them its vertices.
 struct Venation {
   MarginProfile margin;
   std::vector<Tip> tips;    ///< in the order of s: r1, r2, ... of the paper
