@@ -24,6 +24,7 @@ void bind_frames(py::module_& m);
 void bind_result(py::module_& m);
 void bind_simulation(py::module_& m);
 void bind_reproduce(py::module_& m);
+void bind_plan(py::module_& m);
 
 /// Keyword arguments as settings: water__humidity=0.3 is water.humidity = 0.3; so is **{"water.humidity":
 /// 0.3}.

@@ -12,4 +12,5 @@ PYBIND11_MODULE(_core, m) {
   wilt::python::bind_result(m);
   wilt::python::bind_simulation(m);
   wilt::python::bind_reproduce(m);
+  wilt::python::bind_plan(m);
 }

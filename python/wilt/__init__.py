@@ -7,8 +7,8 @@
 
 docs/python.md has the whole of it.
 """
-from ._core import (FrameMetrics, Frame, Leaf, Result, Simulation, Species, State, Vein, Venation, __version__, count_leaves,
+from ._core import (FrameMetrics, Frame, Leaf, Plan, Result, Simulation, Species, State, Vein, Venation, __version__, count_leaves,
                     reproduce, settings, species, threads)
 
-__all__ = ["Frame", "FrameMetrics", "Leaf", "Result", "Simulation", "Species", "State", "Vein", "Venation", "count_leaves",
+__all__ = ["Frame", "FrameMetrics", "Leaf", "Plan", "Result", "Simulation", "Species", "State", "Vein", "Venation", "count_leaves",
            "reproduce", "settings", "species", "threads"]
