@@ -97,6 +97,7 @@ int run(int argc, char** argv) {
   add_render(app, options);
   add_info(app, options);
   add_reproduce(app, options);
+  add_batch(app, options);
   add_texts(app);
   const auto fail = [&](const std::string& message, ErrorCode code) {
     Terminal(options).error(message);

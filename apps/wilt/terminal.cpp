@@ -31,6 +31,12 @@ bool wants_colour(Colour colour) {
 
 constexpr int kBarWidth = 24;
 
+std::string time_left(double seconds) {
+  if (seconds < 120.0) return fmt::format("{:.0f} s left", seconds);
+  if (seconds < 7200.0) return fmt::format("{:.0f} min left", seconds / 60.0);
+  return fmt::format("{:.1f} h left", seconds / 3600.0);
+}
+
 }  // namespace
 
 void guard_standard_streams() {
@@ -100,22 +106,48 @@ void Terminal::clear_bar() {
   bar_shown_ = false;
 }
 
-void Terminal::draw_bar(std::string_view stage, double fraction) {
+bool Terminal::due(std::string_view stage, Clock::duration pause) {
   const Clock::time_point now = Clock::now();
-  if (stage != stage_) {
+  const bool is_new = stage != stage_;
+  if (is_new) {
     stage_ = stage;
     stage_start_ = now;
-  } else if (now - last_drawn_ < std::chrono::milliseconds(100) && fraction < 1.0) {
-    return;
+  } else if (now - last_drawn_ < pause) {
+    return false;
   }
   last_drawn_ = now;
-  const double f = std::clamp(fraction, 0.0, 1.0);
-  const double elapsed = std::chrono::duration<double>(now - stage_start_).count();
-  const int filled = static_cast<int>(f * kBarWidth);
-  const std::string left =
-      f > 0.02 && elapsed > 0.5 ? fmt::format("{:.0f} s left", elapsed * (1.0 - f) / f) : "";
+  return true;
+}
+
+double Terminal::stage_seconds() const {
+  return std::chrono::duration<double>(Clock::now() - stage_start_).count();
+}
+
+void Terminal::draw_bar(std::string_view stage, double fraction) {
+  if (!due(stage, std::chrono::milliseconds(fraction < 1.0 ? 100 : 0))) return;
+  const double f = std::clamp(fraction, 0.0, 1.0), elapsed = stage_seconds();
+  show_bar(stage, f, f > 0.02 && elapsed > 0.5 ? time_left(elapsed * (1.0 - f) / f) : "");
+}
+
+void Terminal::count(std::string_view things, int done, int of) {
+  if (quiet_) return;
+  const bool last = done == of;
+  if (!due(things, terminal_ ? std::chrono::milliseconds(last ? 0 : 100) : std::chrono::seconds(30))) return;
+  const double elapsed = stage_seconds();
+  std::string facts = fmt::format("{} of {}", done, of);
+  if (done > 0 && elapsed > 0.5)
+    facts += fmt::format(", {:.2g}/s, {}", done / elapsed, time_left(elapsed * (of - done) / done));
+  if (terminal_) {
+    show_bar(things, double(done) / of, facts);
+  } else if (elapsed > 1.0) {
+    say(fmt::format("{}: {}", things, facts));
+  }
+}
+
+void Terminal::show_bar(std::string_view stage, double fraction, const std::string& facts) {
+  const int filled = static_cast<int>(fraction * kBarWidth);
   print_message(fmt::format("\r\033[K{:<12} [{}{}] {:3.0f} %  {}", stage, std::string(filled, '='),
-                            std::string(kBarWidth - filled, ' '), 100.0 * f, left));
+                            std::string(kBarWidth - filled, ' '), 100.0 * fraction, facts));
   std::fflush(stderr);
   bar_shown_ = true;
 }

@@ -31,6 +31,10 @@ class Terminal {
   void warn(std::string_view message);    ///< always
   void error(std::string_view message);   ///< always
 
+  /// How many of a long row of things are done: a bar with rate and time left, or, where there is no
+  /// terminal, a line every half minute.
+  void count(std::string_view things, int done, int of);
+
   /// Progress goes to the bar, notes to `say`, and Ctrl-C is what asks to stop.
   Monitor monitor();
 
@@ -39,6 +43,9 @@ class Terminal {
 
   void clear_bar();
   void draw_bar(std::string_view stage, double fraction);
+  void show_bar(std::string_view stage, double fraction, const std::string& facts);
+  bool due(std::string_view stage, Clock::duration pause);  ///< since the last time; begins a new stage
+  double stage_seconds() const;
   std::string paint(std::string_view text, const char* code) const;
 
   bool quiet_, verbose_, terminal_, coloured_;

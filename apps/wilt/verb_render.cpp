@@ -94,8 +94,7 @@ PictureOptions picture_options(const Request& request, Kind kind) {
   }
   if (!request.sun.empty()) {
     const Vec2 sun = parse_pair(request.sun, ',', "--sun takes two numbers like 140,35") * kDegree;
-    picture.lighting.sun.direction = {std::cos(sun.x()) * std::cos(sun.y()),
-                                      std::sin(sun.x()) * std::cos(sun.y()), std::sin(sun.y())};
+    picture.lighting.sun.direction = sun_direction(sun.x(), sun.y());
   }
   return picture;
 }

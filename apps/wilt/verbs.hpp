@@ -10,6 +10,7 @@ class App;
 
 namespace wilt::cli {
 
+void add_batch(CLI::App& app, const GlobalOptions& options);
 void add_demo(CLI::App& app, const GlobalOptions& options);
 void add_info(CLI::App& app, const GlobalOptions& options);
 void add_leaf(CLI::App& app, const GlobalOptions& options);

@@ -71,6 +71,11 @@ Vec3 Sky::mean_above() const {
   return horizon + (zenith - horizon) * (2.0 / 3.0);
 }
 
+Vec3 sun_direction(double azimuth, double elevation) {
+  return {std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation),
+          std::sin(elevation)};
+}
+
 Points3 scene_points(const Scene& scene) {
   std::vector<Points3> parts;
   for (const Surface& surface : scene.surfaces) parts.push_back(surface.positions);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "wilt/core/image.hpp"
@@ -43,6 +44,11 @@ struct Surface {
 struct Scene {
   std::vector<Surface> surfaces;
 };
+
+inline constexpr double kSunAzimuth = 146.0 * std::numbers::pi / 180.0;   ///< radians, about Z from +x
+inline constexpr double kSunElevation = 38.0 * std::numbers::pi / 180.0;  ///< radians, above the horizon
+/// The unit vector towards a sun there.
+Vec3 sun_direction(double azimuth, double elevation);
 
 /// A distant disc.
 struct Sun {

@@ -109,21 +109,8 @@ void apply_table(Config& config, const toml::table& table, const std::string& pr
   for (const auto& [key, node] : table) apply_node(config, prefix + std::string(key.str()), node, source);
 }
 
-// The library calls itself for every part of a dotted key; ours have three at most.
-void check_keys(std::string_view toml, std::string_view source) {
-  constexpr std::ptrdiff_t kMostDots = 64;  // of a line with its comment
-  for (int line = 1; !toml.empty(); ++line) {
-    const std::string_view text = toml.substr(0, toml.find('\n'));
-    toml.remove_prefix(std::min(text.size() + 1, toml.size()));
-    const bool comment =
-        text.substr(std::min(text.find_first_not_of(" \t"), text.size())).substr(0, 1) == "#";
-    if (!comment && std::count(text.begin(), text.end(), '.') > kMostDots)
-      fail(fmt::format("{}, line {}: it has more than {} dots, as no setting has", source, line, kMostDots));
-  }
-}
-
 toml::table parse(std::string_view toml, std::string_view source) {
-  check_keys(toml, source);
+  check_toml_keys(toml, source);
   try {
     return toml::parse(toml);
   } catch (const toml::parse_error& error) {
@@ -187,6 +174,18 @@ void set(Config& config, std::string_view key, std::string_view value) {
   const double number = std::strtod(text.c_str(), &end);
   if (text.empty() || *end != '\0') fail(fmt::format("{}, not '{}'", allowed(setting), text));
   assign_number(setting, field, number);
+}
+
+void check_toml_keys(std::string_view toml, std::string_view source) {
+  constexpr std::ptrdiff_t kMostDots = 64;  // of a line with its comment; our keys have two at most
+  for (int line = 1; !toml.empty(); ++line) {
+    const std::string_view text = toml.substr(0, toml.find('\n'));
+    toml.remove_prefix(std::min(text.size() + 1, toml.size()));
+    const bool comment =
+        text.substr(std::min(text.find_first_not_of(" \t"), text.size())).substr(0, 1) == "#";
+    if (!comment && std::count(text.begin(), text.end(), '.') > kMostDots)
+      fail(fmt::format("{}, line {}: it has more than {} dots, as no setting has", source, line, kMostDots));
+  }
 }
 
 void apply_toml(Config& config, std::string_view toml, std::string_view source) {

@@ -103,6 +103,10 @@ const std::vector<Setting>& settings();
 /// the nearest one, a value of the wrong kind or out of range with what is allowed.
 void set(Config& config, std::string_view key, std::string_view value);
 
+/// Throws Error{configuration} with source and line for keys with more parts than any has: the library that
+/// reads TOML calls itself for each. To be called before it.
+void check_toml_keys(std::string_view toml, std::string_view source);
+
 /// Applies a TOML document; `source` names it in messages. Same errors as `set`.
 void apply_toml(Config& config, std::string_view toml, std::string_view source);
 
