@@ -111,7 +111,8 @@ class Stopped(Exception):
 
 
 def _stopped_by(error):
-    code = 5 if isinstance(error, OSError) else 2 if isinstance(error, ValueError) else 4
+    codes = {FileNotFoundError: 3, OSError: 5, ValueError: 2}
+    code = next((code for kind, code in codes.items() if isinstance(error, kind)), 4)
     return Stopped(code, str(error) if code != 4 else f"{type(error).__name__}: {error}")
 
 
@@ -122,8 +123,8 @@ class Distribution:
     client, the scheduler and the workers does not grow with the plan.
     """
 
-    def __init__(self, client, path, directory, threads=1):
-        self.client, self.threads = client, threads
+    def __init__(self, client, path, directory, threads=1, retry=False):
+        self.client, self.threads, self.retry = client, threads, retry
         self.path, self.directory = os.path.abspath(path), os.path.abspath(directory)
         self.plan = wilt.Plan.read(self.path)
         self.text_hash = _text_hash(self.path)
@@ -154,10 +155,19 @@ class Distribution:
 
     def _missing(self, items):
         for item in items:
-            if self.plan.is_done(item, self.directory):
+            state = self.plan.state(item, self.directory)
+            if state == "whole":
                 self.tally["there"] += 1
+            elif state == "failed" and not self.retry:
+                self.tally["failed"] += 1
             else:
+                if state == "failed":
+                    self.plan.forget_failure(item, self.directory)
                 yield item
+
+    def finish(self):
+        """Writes the manifest and the layouts if every item is there, and says whether. What dead workers left goes."""
+        return wilt.Plan.read(self.path).finish(self.directory)
 
     def _make(self, missing, progress):
         more = True
@@ -229,6 +239,7 @@ def parse_arguments(arguments):
     where.add_argument("--scheduler", metavar="ADDRESS", help="of a running scheduler: tcp://host:8786")
     where.add_argument("--workers", metavar="N", type=int, help="start N workers on this machine (one a core)")
     parser.add_argument("--shard", metavar="I/N", default="1/1", help="only items whose number leaves I - 1 divided by N")
+    parser.add_argument("--retry", action="store_true", help="try again what has failed")
     parser.add_argument("--threads", metavar="N", type=int,
                         help="threads of one item (with --scheduler 1, else cores by workers, at least 1)")
     parser.add_argument("-q", "--quiet", action="store_true", help="warnings and errors only")
@@ -262,7 +273,7 @@ def _run(request, progress):
     index, of = parse_shard(request.shard)
     threads = request.threads or (1 if request.scheduler else max(1, os.cpu_count() // _local_workers(request)))
     with _connected(request) as client:
-        distribution = Distribution(client, request.plan, request.output, threads)
+        distribution = Distribution(client, request.plan, request.output, threads, request.retry)
         items = range(index - 1, len(distribution.plan), of)
         progress.total = len(items)
         progress.say(f"{len(items)} items; scheduler {client.scheduler.address}, its pages: {client.dashboard_link}")
@@ -270,11 +281,10 @@ def _run(request, progress):
     tally = distribution.tally
     progress.say(f"{tally['made']} items made, {tally['there']} were there, {tally['failed']} failed; "
                  f"{time.monotonic() - progress.start:.0f} s")
-    finished = distribution.plan.finish(distribution.directory)
-    progress.say(f"all {len(distribution.plan)} items are there: {request.output}/manifest.jsonl" if finished
+    progress.say(f"all {len(distribution.plan)} items are there: {request.output}/manifest.jsonl" if distribution.finish()
                  else "the manifest is written by the run that makes the last item")
     if tally["failed"]:
-        raise Stopped(4, f"{tally['failed']} items could not be made; {request.output}/failed says why")
+        raise Stopped(4, f"{tally['failed']} items could not be made; {request.output}/failed says why, --retry tries them again")
 
 
 def main(arguments=None):
