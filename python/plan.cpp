@@ -1,142 +1,123 @@
 // wilt.Plan: the items of a batch, one by one.
-#include <fmt/format.h>
+#include "wilt/batch/plan.hpp"
 
-#include <nlohmann/json.hpp>
+#include <map>
+#include <memory>
+#include <mutex>
 
 #include "bindings.hpp"
 #include "computing.hpp"
 #include "docs.hpp"
 #include "errors.hpp"
-#include "plan_object.hpp"
+#include "wilt/batch/batch.hpp"
 #include "wilt/batch/item_files.hpp"
 
 namespace wilt::python {
-
-using Lock = std::lock_guard<std::mutex>;
-
-Batch& PlanObject::batch(const std::filesystem::path& directory) {
-  std::unique_ptr<Batch>& batch = batches_[directory.string()];
-  if (!batch) batch = std::make_unique<Batch>(plan_, directory);
-  return *batch;
-}
-
-std::string PlanObject::state(int item, const std::filesystem::path& directory) {
-  const Lock lock(mutex_);
-  switch (batch(directory).state(item)) {
-    case ItemState::whole:
-      return "whole";
-    case ItemState::failed:
-      return "failed";
-    default:
-      return "missing";
-  }
-}
-
-bool PlanObject::is_done(int item, const std::filesystem::path& directory) {
-  return state(item, directory) == "whole";
-}
-
-std::string PlanObject::run_item(int item, const std::filesystem::path& directory, const Monitor& monitor) {
-  const Lock lock(mutex_);
-  Batch& here = batch(directory);
-  const bool whole = here.make(item, monitor) == ItemState::whole;
-  return nlohmann::json{
-      {"item", item}, {"state", whole ? "whole" : "failed"}, {"reason", whole ? "" : here.failure(item)}}
-      .dump();
-}
-
-void PlanObject::record_failure(int item, const std::filesystem::path& directory, const std::string& reason) {
-  const Lock lock(mutex_);
-  batch(directory).record_failure(item, ErrorCode::simulation, reason);
-}
-
-void PlanObject::forget_failure(int item, const std::filesystem::path& directory) {
-  const Lock lock(mutex_);
-  batch(directory).forget_failure(item);
-}
-
-bool PlanObject::finish(const std::filesystem::path& directory, const Monitor& monitor) {
-  const Lock lock(mutex_);
-  return batch(directory).finish(monitor);
-}
-
 namespace {
 
-using Path = std::filesystem::path;
+namespace fs = std::filesystem;
 
-// Of an item that the plan has, without Python's lock; `act` takes the monitor.
-template <class Act>
-void working(const PlanObject& plan, int item, const Act& act) {
-  if (item < 0 || item >= plan.plan().count())
-    throw py::index_error(fmt::format("item {}; the plan has 0 to {}", item, plan.plan().count() - 1));
-  computing(act);
+/// A plan with the folders that its items were asked for in. One call at a time: threads wait for each other.
+class PlanObject {
+ public:
+  explicit PlanObject(Plan plan) : plan_(std::move(plan)) {}
+
+  const Plan& plan() const { return plan_; }
+
+  /// Calls work(batch, monitor) without Python's lock.
+  template <class Work>
+  void with_batch(const fs::path& directory, const Work& work) {
+    computing([&](const Monitor& monitor) {
+      const std::lock_guard<std::mutex> one(mutex_);
+      std::unique_ptr<Batch>& batch = batches_[fs::absolute(directory).string()];
+      if (!batch) batch = std::make_unique<Batch>(plan_, directory);
+      work(*batch, monitor);
+    });
+  }
+
+ private:
+  Plan plan_;
+  std::mutex mutex_;
+  std::map<std::string, std::unique_ptr<Batch>> batches_;
+};
+
+void check_number(const PlanObject& self, int item) {
+  if (item < 0 || item >= self.plan().count())
+    throw py::index_error("the plan has the items 0 to " + std::to_string(self.plan().count() - 1));
 }
 
-std::shared_ptr<PlanObject> read(const Path& path) {
-  std::shared_ptr<PlanObject> plan;
-  reading(path, [&] { plan = std::make_shared<PlanObject>(read_plan(path)); });
-  return plan;
+py::dict describe(const PlanObject& self, int number) {
+  check_number(self, number);
+  const Item item = self.plan().item(number);
+  py::dict description;
+  description["item"] = item.number;
+  description["leaf"] = item.leaf.leaf;
+  description["chosen"] = from_json(chosen_json(item));
+  description["config"] = from_json(to_json(item.config));
+  return description;
 }
 
-py::dict chosen(const PlanObject& self, int item) {
-  std::string text;
-  working(self, item, [&](const Monitor&) { text = chosen_json(self.plan().item(item)); });
-  return from_json(text);
+py::dict run_item(PlanObject& self, int item, const fs::path& directory, bool retry) {
+  check_number(self, item);
+  ItemState state = ItemState::missing;
+  std::string reason;
+  self.with_batch(directory, [&](Batch& batch, const Monitor& monitor) {
+    if (retry) batch.forget_failure(item);
+    state = batch.make(item, monitor);
+    if (state == ItemState::failed) reason = batch.failure(item);
+  });
+  py::dict result;
+  result["item"] = item;
+  result["state"] = state == ItemState::whole ? "whole" : "failed";
+  if (state == ItemState::failed) result["reason"] = reason;
+  return result;
 }
 
-std::string state(PlanObject& self, int item, const Path& directory) {
-  std::string found;
-  working(self, item, [&](const Monitor&) { found = self.state(item, directory); });
-  return found;
-}
-
-bool is_done(PlanObject& self, int item, const Path& directory) {
+bool is_done(PlanObject& self, int item, const fs::path& directory) {
+  check_number(self, item);
   bool done = false;
-  working(self, item, [&](const Monitor&) { done = self.is_done(item, directory); });
+  self.with_batch(directory,
+                  [&](Batch& batch, const Monitor&) { done = batch.state(item) != ItemState::missing; });
   return done;
 }
 
-py::dict run_item(PlanObject& self, int item, const Path& directory) {
-  std::string report;
-  working(self, item, [&](const Monitor& monitor) { report = self.run_item(item, directory, monitor); });
-  return from_json(report);
+void record_failure(PlanObject& self, int item, const fs::path& directory, const std::string& reason) {
+  check_number(self, item);
+  self.with_batch(directory, [&](Batch& batch, const Monitor&) {
+    batch.record_failure(item, ErrorCode::simulation, reason);
+  });
 }
 
-void record_failure(PlanObject& self, int item, const Path& directory, const std::string& reason) {
-  working(self, item, [&](const Monitor&) { self.record_failure(item, directory, reason); });
-}
-
-void forget_failure(PlanObject& self, int item, const Path& directory) {
-  working(self, item, [&](const Monitor&) { self.forget_failure(item, directory); });
-}
-
-bool finish(PlanObject& self, const Path& directory) {
+bool finish(PlanObject& self, const fs::path& directory) {
   bool finished = false;
-  computing([&](const Monitor& monitor) { finished = self.finish(directory, monitor); });
+  self.with_batch(directory, [&](Batch& batch, const Monitor& monitor) { finished = batch.finish(monitor); });
   return finished;
 }
 
 }  // namespace
 
 void bind_plan(py::module_& m) {
-  namespace d = docs::PlanObject;
-  const py::arg item("item"), directory("directory");
-  py::class_<PlanObject, std::shared_ptr<PlanObject>>(m, "Plan", d::self)
-      .def(py::init([](const std::string& toml, const Path& folder) {
-             return std::make_shared<PlanObject>(Plan(toml, "plan", folder));
+  namespace d = docs::Batch;
+  py::class_<PlanObject>(m, "Plan", docs::Plan::self)
+      .def(py::init([](const std::string& toml, const fs::path& folder) {
+             return std::make_unique<PlanObject>(Plan(toml, "plan", folder));
            }),
-           py::arg("toml"), py::arg_v("folder", Path(), "''"), docs::Plan::Plan)
-      .def_static("read", read, py::arg("path"), docs::read_plan)
+           py::arg("toml"), py::arg_v("folder", fs::path(), "''"), docs::Plan::Plan)
+      .def_static(
+          "read",
+          [](const fs::path& path) {
+            std::unique_ptr<PlanObject> plan;
+            reading(path, [&] { plan = std::make_unique<PlanObject>(read_plan(path)); });
+            return plan;
+          },
+          py::arg("path"), docs::read_plan)
       .def("__len__", [](const PlanObject& self) { return self.plan().count(); })
-      .def_property_readonly(
-          "text", [](const PlanObject& self) { return self.plan().text(); }, docs::Plan::text)
-      .def("chosen", chosen, item, docs::Item::chosen)
-      .def("state", state, item, directory, d::state)
-      .def("is_done", is_done, item, directory, d::is_done)
-      .def("run_item", run_item, item, directory, d::run_item)
-      .def("record_failure", record_failure, item, directory, py::arg("reason"), d::record_failure)
-      .def("forget_failure", forget_failure, item, directory, d::forget_failure)
-      .def("finish", finish, directory, d::finish);
+      .def("item", describe, py::arg("item"), docs::Plan::item)
+      .def("run_item", run_item, py::arg("item"), py::arg("directory"), py::arg("retry") = false, d::make)
+      .def("is_done", is_done, py::arg("item"), py::arg("directory"), d::state)
+      .def("record_failure", record_failure, py::arg("item"), py::arg("directory"), py::arg("reason"),
+           d::record_failure)
+      .def("finish", finish, py::arg("directory"), d::finish);
 }
 
 }  // namespace wilt::python

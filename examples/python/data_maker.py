@@ -56,8 +56,8 @@ def main():
     folder = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else "out/data_maker")
     text = PLAN.format(count=count)
     begin(text)
-    print("item 0 will be", plan.chosen(0))
-    missing = [item for item in range(len(plan)) if plan.state(item, folder) == "missing"]
+    print("item 0 will be", plan.item(0)["chosen"])
+    missing = [item for item in range(len(plan)) if not plan.is_done(item, folder)]
     print(f"{len(missing)} of {len(plan)} leaves are to be made")
 
     # %% Processes are spawned: a fork would lose the threads that wilt may have begun.

@@ -33,12 +33,18 @@ void make_folder(const fs::path& folder) {
   if (error) fail(folder, error.value());
 }
 
+std::string host_name() {
+  char name[256] = {};
+  ::gethostname(name, sizeof name - 1);
+  return name;
+}
+
 /// A hidden folder in which an item is made. While it lives it is locked; one that no process has locked was
 /// left by a process that was killed.
 class Workshop {
  public:
   explicit Workshop(const fs::path& item)
-      : path_(item.parent_path() / fmt::format(".{}.XXXXXX", item.filename().string())) {
+      : path_(item.parent_path() / fmt::format(".{}.{}.XXXXXX", item.filename().string(), host_name())) {
     std::string name = path_.string();
     if (::mkdtemp(name.data()) == nullptr) fail(path_, errno);
     path_ = name;
@@ -74,11 +80,12 @@ class Workshop {
   int descriptor_ = -1;
 };
 
-// Removes what killed processes left.
+// Removes what killed processes of this machine left: others may not show us their locks.
 void sweep(const fs::path& items) {
+  const std::string ours = "." + host_name() + ".";
   for (const auto& entry : fs::directory_iterator(items)) {
     const std::string name = entry.path().filename().string();
-    if (name.front() != '.' || !entry.is_directory()) continue;
+    if (name.front() != '.' || name.find(ours) == std::string::npos) continue;
     const int descriptor = ::open(entry.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) continue;
     std::error_code ignored;

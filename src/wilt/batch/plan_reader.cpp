@@ -201,8 +201,12 @@ class Reader {
     if (table == nullptr) fail("[settings] is a section with keys of its own");
     for_each_key(*table, source_, [&](const std::string& name, const toml::node& value) {
       const toml::table* nested = value.as_table();
-      if (nested != nullptr && !is_distribution(*nested)) return read_settings(value, prefix + name + ".");
-      add(prefix + name, setting_values(prefix + name, value));
+      const std::string key = prefix + name;
+      const bool is_setting = std::any_of(settings().begin(), settings().end(),
+                                          [&key](const Setting& setting) { return setting.key == key; });
+      if (nested != nullptr && !is_setting && !is_distribution(*nested))
+        return read_settings(value, key + ".");
+      add(key, setting_values(key, value));
     });
   }
 
