@@ -45,8 +45,6 @@ std::string answer_of(Batch& batch, int item, const Monitor& monitor) {
     return batch.make(item, monitor) == ItemState::whole ? "whole" : "failed";
   } catch (const Error& error) {
     return fmt::format("{} {}", static_cast<int>(error.code()), error.what());
-  } catch (const std::exception& error) {
-    return fmt::format("{} internal error: {}", static_cast<int>(ErrorCode::simulation), error.what());
   }
 }
 

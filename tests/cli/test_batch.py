@@ -173,6 +173,11 @@ class Batch(unittest.TestCase):
         self.assertIn("files", lines[0])
         self.assertIn("empty.svg", lines[1]["reason"])
         self.assertIn("there is no file", lines[2]["reason"])
+        (self.root / "elsewhere").mkdir()  # the reasons name no folders
+        other = subprocess.run([WILT, "batch", "../failing.toml", "-o", self.root / "failing2"], capture_output=True,
+                               cwd=self.root / "elsewhere")
+        self.assertEqual(other.returncode, 4)
+        self.assertEqual(files_of(self.root / "failing2"), files_of(self.root / "failing"))
         again = self.run_batch(plan, "failing", "--json")
         self.assertEqual((again.returncode, json.loads(again.stdout)["made"]), (4, 0))
         (self.root / "missing.png").write_text("")  # other contents: another item

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
 
@@ -30,6 +31,17 @@ TEST(MakeLeaf, ShowsTheTipsOfItsSpeciesAtEveryResolution) {
         EXPECT_EQ(tips, test::expected_tips(name)) << name << " " << vertices << " seed " << seed;
       }
     }
+  }
+}
+
+// Oracle: areas as g++ made them; clang and em++ must make the same individuals. In m^2.
+TEST(MakeLeaf, IsTheSameIndividualUnderEveryCompiler) {
+  const std::map<std::string, double> areas = {
+      {"maple", 0.013775772879472518}, {"poplar", 0.002953962743780312},  {"tilia", 0.0038514687420559825},
+      {"ivy", 0.0030246431335271373},  {"willow", 0.0008527861602727244}, {"grape", 0.016880656708108784}};
+  for (const auto& [name, area] : areas) {
+    const Leaf leaf = make_leaf(name, 800, 5);
+    EXPECT_NEAR(surface_area(leaf.mesh, leaf.positions), area, 1e-9 * area) << name;
   }
 }
 

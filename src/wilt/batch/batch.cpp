@@ -94,6 +94,17 @@ void sweep(const fs::path& items) {
   }
 }
 
+// Names of the leaf's files without their folders, which differ from machine to machine.
+std::string without_folders(std::string text, const LeafRequest& leaf) {
+  for (const std::string& file : {leaf.leaf, leaf.read.mask.string(), leaf.veins}) {
+    const std::string name = fs::path(file).filename().string();
+    if (name == file) continue;
+    for (std::size_t at = text.find(file); at != std::string::npos; at = text.find(file, at + name.size()))
+      text.replace(at, file.size(), name);
+  }
+  return text;
+}
+
 // The fingerprint that a file of an item says, or nothing when there is no such file.
 std::string fingerprint_in(const fs::path& file) {
   if (!fs::exists(file)) return {};
@@ -150,6 +161,8 @@ ItemState Batch::make(int number, const Monitor& monitor) {
     record_failure(number, error.code(), error.what());
   } catch (const std::bad_alloc&) {
     record_failure(number, ErrorCode::simulation, "there is no memory for it");
+  } catch (const std::exception& error) {
+    record_failure(number, ErrorCode::simulation, fmt::format("internal error: {}", error.what()));
   }
   return ItemState::failed;
 }
@@ -159,7 +172,7 @@ void Batch::record_failure(int number, ErrorCode code, const std::string& reason
   Json json = {{"item", number},
                {"fingerprint", fingerprints_.of(item)},
                {"code", static_cast<int>(code)},
-               {"reason", reason}};
+               {"reason", without_folders(reason, item.leaf)}};
   json["chosen"] = Json::parse(chosen_json(item));
   write_file(failure_file(number).string(), json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
