@@ -146,6 +146,17 @@ class Interrupts(unittest.TestCase):
             other.step()
         np.testing.assert_array_equal(sim.state.positions, other.state.positions)
 
+    def test_what_a_signals_handler_raises_comes_out(self):
+        def late(*_):
+            raise TimeoutError("too late")
+
+        self.addCleanup(signal.signal, signal.SIGALRM, signal.signal(signal.SIGALRM, late))
+        sim = wilt.Simulation(leaf(), iterations=100000, frames=2)
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        with self.assertRaisesRegex(TimeoutError, "too late"):
+            sim.run()
+        self.assertGreater(sim.iteration, 0)
+
     def test_ctrl_c_stops_the_search_for_veins(self):
         large = wilt.Leaf.from_species("maple", vertices=30000)
         threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
