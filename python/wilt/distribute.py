@@ -49,11 +49,11 @@ def _plan(path, text_hash, version):
     return _thread.plan
 
 
-def make_item(path, text_hash, version, directory, item, threads):
+def make_item(path, text_hash, version, directory, item, threads, retry):
     """Makes one item, on a worker."""
     plan = _plan(path, text_hash, version)
     with wilt.threads(threads):
-        return plan.run_item(item, directory)
+        return plan.run_item(item, directory, retry=retry)
 
 
 def dask_setup(_worker):
@@ -155,15 +155,14 @@ class Distribution:
 
     def _missing(self, items):
         for item in items:
-            state = self.plan.state(item, self.directory)
-            if state == "whole":
-                self.tally["there"] += 1
-            elif state == "failed" and not self.retry:
-                self.tally["failed"] += 1
-            else:
-                if state == "failed":
-                    self.plan.forget_failure(item, self.directory)
+            if not self.plan.is_done(item, self.directory):
                 yield item
+            elif self.plan.run_item(item, self.directory)["state"] == "whole":  # makes nothing: it is done
+                self.tally["there"] += 1
+            elif self.retry:
+                yield item
+            else:
+                self.tally["failed"] += 1
 
     def finish(self):
         """Writes the manifest and the layouts if every item is there, and says whether. What dead workers left goes."""
@@ -183,7 +182,7 @@ class Distribution:
             if item is None:
                 return False
             future = self.client.submit(make_item, self.path, self.text_hash, wilt.__version__, self.directory, item,
-                                        self.threads, key=f"{self.name}-{item:06}", retries=RETRIES)
+                                        self.threads, self.retry, key=f"{self.name}-{item:06}", retries=RETRIES)
             self.under_way[item] = future
             future.add_done_callback(lambda _, item=item: self.done.put(item))
         return more
@@ -252,7 +251,7 @@ def _connected(request):
     with contextlib.ExitStack() as stack:
         if request.scheduler:
             try:
-                yield stack.enter_context(Client(request.scheduler, timeout=20))
+                yield stack.enter_context(Client(request.scheduler, timeout=5))
             except (OSError, ValueError) as error:
                 raise Stopped(2, f"there is no scheduler at '{request.scheduler}' ({error}); start one with `dask scheduler`") \
                     from error
@@ -263,6 +262,13 @@ def _connected(request):
             n_workers=_local_workers(request), threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0",
             memory_limit=0, preload=[__name__], local_directory=spill, silence_logs=logging.CRITICAL))
         yield stack.enter_context(Client(cluster))
+
+
+def _pages(client):
+    """Where the scheduler shows workers and tasks: its plots (/status) need bokeh, these pages do not."""
+    if "dashboard" not in client.scheduler_info()["services"]:
+        return ""
+    return ", its pages: " + client.dashboard_link.replace("/status", "/info/main/workers.html")
 
 
 def _local_workers(request):
@@ -276,7 +282,7 @@ def _run(request, progress):
         distribution = Distribution(client, request.plan, request.output, threads, request.retry)
         items = range(index - 1, len(distribution.plan), of)
         progress.total = len(items)
-        progress.say(f"{len(items)} items; scheduler {client.scheduler.address}, its pages: {client.dashboard_link}")
+        progress.say(f"{len(items)} items; scheduler {client.scheduler.address}{_pages(client)}")
         distribution.run(items, progress)
     tally = distribution.tally
     progress.say(f"{tally['made']} items made, {tally['there']} were there, {tally['failed']} failed; "

@@ -134,10 +134,10 @@ class Workers(Distributed):
         expected = self.serial()
         poison = self.dir / "poison.py"
         poison.write_text("import os, wilt\n"
-                          "def run_item(plan, item, directory, real=wilt.Plan.run_item):\n"
+                          "def run_item(plan, item, directory, real=wilt.Plan.run_item, **more):\n"
                           "    if item == 5:\n"
                           "        os.kill(os.getpid(), 9)\n"
-                          "    return real(plan, item, directory)\n"
+                          "    return real(plan, item, directory, **more)\n"
                           "wilt.Plan.run_item = run_item\n")
         with Cluster(self.dir) as cluster:
             for _ in range(2):
