@@ -52,12 +52,13 @@ class Files(WithFolder):
             with self.assertRaisesRegex(ValueError, words):
                 result.save(self.dir / "a.glb", **options)
 
-    def test_a_picture_is_the_one_that_is_written(self):
+    def test_a_picture_is_the_programs(self):
         result = simulation().run()
-        result.save(self.dir / "p.png")
-        pixels = result.picture()
-        self.assertEqual((pixels.shape, pixels.dtype), ((720, 960, 3), np.uint8))
-        np.testing.assert_array_equal(pixels, cv2.imread(str(self.dir / "p.png"))[:, :, ::-1])
+        result.save(self.dir / "leaf.glb")
+        self.program("render", "leaf.glb", "-o", "leaf.png", "--size", "96x64", "--frame", 1)
+        pixels = result.picture(1, 96, 64)
+        self.assertEqual((pixels.shape, pixels.dtype), ((64, 96, 3), np.uint8))
+        np.testing.assert_array_equal(pixels, cv2.imread(str(self.dir / "leaf.png"))[:, :, ::-1])
         np.testing.assert_array_equal(result.picture(0, 64, 48), result.picture(-3, 64, 48))
         with self.assertRaisesRegex(ValueError, "frame 3 must be -3 to 2"):
             result.picture(3)
