@@ -123,7 +123,7 @@ class Distribution:
     """The items of a plan on their way through a cluster.
 
     At most QUEUED tasks per thread of the cluster are under way, and a task's result is a small dict, so memory on the
-    client, the scheduler and the workers does not grow with the plan.
+    client, the scheduler and the workers grows with the plan by no more than Dask's records of its tasks.
     """
 
     def __init__(self, client, path, directory, threads=1, retry=False):
@@ -139,10 +139,11 @@ class Distribution:
         self.asked, self.workers, self.slots = 0.0, 0, 1
 
     def run(self, items, progress):
-        """Makes the items that are not whole. Throws Stopped."""
+        """Makes the items that are not whole. Raises Stopped."""
         try:
             self._make(self._missing(items), progress)
             # A worker that dies takes the items that wait for it along. One at a time shows which of them did it.
+            self.name += "-again"
             while self.suspects:
                 item = self.suspects.pop()
                 self._make(iter([item]), progress)
