@@ -199,8 +199,8 @@ void bind_arrays(py::class_<LeafObject, Shared>& leaf) {
   leaf.def_property_readonly(
       "boundary_loops",
       [](const LeafObject& self) {
-        py::list loops;
-        for (const auto& loop : self.leaf.mesh.boundary_loops()) loops.append(indices(loop));
+        std::vector<py::array_t<int>> loops;
+        for (const auto& loop : self.leaf.mesh.boundary_loops()) loops.push_back(indices(loop));
         return loops;
       },
       docs::SurfaceMesh::boundary_loops);

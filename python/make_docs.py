@@ -100,7 +100,7 @@ class Reader:
 
 def in_python(lines):
     text = "\n".join(lines).strip()
-    text = text.replace("::", ".")
+    text = re.sub(r"\s\(\w+\.hpp\)", "", text.replace("::", ".")).replace(" thrown", " raised")
     text = re.sub(r"Error\{(\w+)\}", lambda m: ERRORS[m.group(1)], text)
     return re.sub(r"\b(T|t)hrows\b", lambda m: "Raises" if m.group(1) == "T" else "raises", text)
 

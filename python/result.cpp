@@ -125,11 +125,11 @@ py::dict forces_table(const ResultObject& self) {
   return table;
 }
 
-py::list frames_of(const ResultObject& self) {
+std::vector<std::shared_ptr<FrameObject>> frames_of(const ResultObject& self) {
   const SimulationResult& result = self.withered->result;
-  py::list list;
+  std::vector<std::shared_ptr<FrameObject>> list;
   for (std::size_t k = 0; k < result.frames.size(); ++k)
-    list.append(std::make_shared<FrameObject>(
+    list.push_back(std::make_shared<FrameObject>(
         FrameObject{self.subject, {self.withered, &result.frames[k]}, result.metrics[k]}));
   return list;
 }

@@ -25,9 +25,8 @@ class FairMutex {
   std::uint64_t last_ = 0, serving_ = 0;
 };
 
-/// A leaf that withers step by step. Every function waits for the step that another thread is at, and none
-/// touches Python.
-class RunObject {
+/// A leaf that withers step by step. Threads may share it: each waits for the step that another one is at.
+class RunObject {  // none of whose functions touches Python
  public:
   explicit RunObject(std::shared_ptr<const Subject> subject);
 
@@ -40,8 +39,8 @@ class RunObject {
   /// Nothing happens once it has ended.
   void step();
 
-  /// All iterations that are left. Ctrl-C raises KeyboardInterrupt after the one that is being done: what was
-  /// computed is kept, and another call goes on.
+  /// All iterations that are left. Throws Error{interrupted} after the one that is being done when the
+  /// monitor says so.
   void run(const Monitor& monitor);
 
   /// All there is to know now. It does not change when the simulation goes on; asked for twice at one

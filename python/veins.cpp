@@ -32,21 +32,6 @@ std::shared_ptr<VeinsObject> find_veins(const std::shared_ptr<const LeafObject>&
   return veins;
 }
 
-void save_veins(const VeinsObject& veins, const std::filesystem::path& path) {
-  const VeinsWriter text = veins_writer(path.string());
-  computing([&](const Monitor&) { write_file(path.string(), text(veins.leaf->leaf, veins.venation)); });
-}
-
-namespace {
-
-using Shared = std::shared_ptr<VeinsObject>;
-
-/// A vein, with the leaf that it is drawn on.
-struct VeinObject {
-  Shared veins;
-  const Vein* vein;
-};
-
 Points3 path_positions(const VeinObject& self) {
   const Leaf& leaf = self.veins->leaf->leaf;
   const auto& path = self.vein->path.points;
@@ -55,6 +40,15 @@ Points3 path_positions(const VeinObject& self) {
     points.row(static_cast<int>(i)) = position(leaf.mesh, leaf.positions, path[i]).transpose();
   return points;
 }
+
+void save_veins(const VeinsObject& veins, const std::filesystem::path& path) {
+  const VeinsWriter text = veins_writer(path.string());
+  computing([&](const Monitor&) { write_file(path.string(), text(veins.leaf->leaf, veins.venation)); });
+}
+
+namespace {
+
+using Shared = std::shared_ptr<VeinsObject>;
 
 Shared veins_of(const std::shared_ptr<LeafObject>& leaf, const std::optional<std::filesystem::path>& file,
                 const py::kwargs& options) {
@@ -78,8 +72,7 @@ void bind_vein(py::module_& m) {
       .def_property_readonly(
           "length", [](const VeinObject& v) { return v.vein->path.length; }, docs::SurfacePath::length)
       .def_property_readonly(
-          "positions", [](const VeinObject& v) { return owned(path_positions(v)); },
-          docs::SurfacePath::points);
+          "positions", [](const VeinObject& v) { return owned(path_positions(v)); }, docs::path_positions);
 }
 
 void bind_tips(py::class_<VeinsObject, Shared>& veins) {
@@ -134,8 +127,8 @@ void bind_veins(py::module_& m) {
   veins.def_property_readonly(
       "veins",
       [](const Shared& self) {
-        py::list list;
-        for (const Vein& vein : self->venation.veins) list.append(VeinObject{self, &vein});
+        std::vector<VeinObject> list;
+        for (const Vein& vein : self->venation.veins) list.push_back({self, &vein});
         return list;
       },
       d::veins);

@@ -15,6 +15,15 @@ namespace wilt::python {
 std::shared_ptr<VeinsObject> find_veins(const std::shared_ptr<const LeafObject>& leaf, const Config& config,
                                         const std::string& file);
 
+/// A vein of a leaf.
+struct VeinObject {
+  std::shared_ptr<VeinsObject> veins;
+  const Vein* vein;
+};
+
+/// #K x 3, metres, leaf frame, on the blade at rest: from the petiole (or the parent) outwards.
+Points3 path_positions(const VeinObject& self);
+
 /// Writes the veins as `wilt veins -o` does: .json, .svg or .obj. Raises ValueError for another name,
 /// OSError.
 void save_veins(const VeinsObject& veins, const std::filesystem::path& path);
