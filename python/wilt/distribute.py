@@ -28,6 +28,9 @@ import wilt  # noqa: E402
 QUEUED = 2  # items a worker's thread has been given, so that it never waits for the next
 RETRIES = 2  # of an item whose files could not be written
 WORKER_DEATHS = 3  # with an item in hand or waiting, before it is suspected of killing them
+# Of Dask's records of itself, which cost time and memory, for a cluster of our own.
+LEAN = {"distributed.worker.profile.enabled": False, "distributed.scheduler.transition-log-length": 1000,
+        "distributed.scheduler.events-log-length": 1000}
 
 _thread = threading.local()
 
@@ -251,12 +254,12 @@ def _connected(request):
     with contextlib.ExitStack() as stack:
         if request.scheduler:
             try:
-                yield stack.enter_context(Client(request.scheduler, timeout=5))
+                yield stack.enter_context(Client(request.scheduler))
             except (OSError, ValueError) as error:
                 raise Stopped(2, f"there is no scheduler at '{request.scheduler}' ({error}); start one with `dask scheduler`") \
                     from error
             return
-        dask.config.set({"distributed.scheduler.allowed-failures": WORKER_DEATHS - 1})
+        dask.config.set({"distributed.scheduler.allowed-failures": WORKER_DEATHS - 1, **LEAN})
         spill = stack.enter_context(tempfile.TemporaryDirectory(prefix="wilt-"))
         cluster = stack.enter_context(LocalCluster(
             n_workers=_local_workers(request), threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0",

@@ -17,6 +17,12 @@
 
 namespace wilt::test {
 
+/// Three numbers in an order of ours: arguments of one call are evaluated in the compiler's.
+inline Vec3 normal_point(Random& random) {
+  const double z = random.normal(), y = random.normal(), x = random.normal();
+  return {x, y, z};
+}
+
 /// A flat blade 100 long, rolled about the axis x = 0, z = radius: (x, y) goes to
 /// (radius sin(x / radius), y, radius - radius cos(x / radius)), which keeps all lengths.
 class RolledBlade {
@@ -59,7 +65,7 @@ class RolledBlade {
       const Vec2 at = (a * planar.positions.row(v[0]) + b * planar.positions.row(v[1]) +
                        (1.0 - a - b) * planar.positions.row(v[2]))
                           .transpose();
-      points.push_back(roll(at) + noise * Vec3(random.normal(), random.normal(), random.normal()));
+      points.push_back(roll(at) + noise * normal_point(random));
     }
     return points;
   }

@@ -61,7 +61,7 @@ std::string sphere() {
   Random random(3, "sphere");
   std::string text;
   for (int i = 0; i < 4000; ++i) {
-    const Vec3 p(random.normal(), random.normal(), random.normal());
+    const Vec3 p = test::normal_point(random);
     const Vec3 q = 50.0 * p.normalized();
     text += fmt::format("{} {} {}\n", q.x(), q.y(), q.z());
   }
@@ -82,10 +82,9 @@ std::string fins() {
 TEST_F(ScanRefusals, AreNoSheets) {
   for (const std::string& body : {sphere(), fins()}) expect_refusal(body, "lies over itself");
   Random random(4, "cloud");
-  std::string cloud;
-  for (int i = 0; i < 3000; ++i)
-    cloud += fmt::format("{} {} {}\n", random.uniform(0, 50), random.uniform(0, 50), random.uniform(0, 50));
-  EXPECT_NE(refusal(write("cloud.xyz", cloud)), "");
+  std::vector<Vec3> cloud;
+  for (int i = 0; i < 3000; ++i) cloud.push_back(20.0 * test::normal_point(random));
+  EXPECT_NE(refusal(write("cloud.xyz", test::lines(cloud))), "");
 }
 
 TEST_F(ScanRefusals, OptionsThatDoNotGoWithTheFile) {
