@@ -4,12 +4,21 @@
 #include <pybind11/numpy.h>
 
 #include <Eigen/Core>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace wilt::python {
 
 namespace py = pybind11;
+
+/// The Python object that holds `self`, for views of what is in it. Python may say None where pybind11
+/// expects an object.
+template <class T>
+py::object owner_of(const std::shared_ptr<T>& self) {
+  if (!self) throw py::type_error("None has no arrays");
+  return py::cast(self);
+}
 
 /// The shape of a matrix (rows x columns, row by row) or vector.
 template <class Derived>

@@ -1,6 +1,7 @@
 #include "errors.hpp"
 
 #include <pybind11/pybind11.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <exception>
 
@@ -34,6 +35,12 @@ void translate_errors() {
       PyErr_SetString(python_error(error.code()), error.what());
     }
   });
+}
+
+std::filesystem::path path_of(py::handle path) {
+  const auto text = py::reinterpret_steal<py::object>(PyOS_FSPath(path.ptr()));
+  if (!text) throw py::error_already_set();
+  return text.cast<std::filesystem::path>();
 }
 
 void reading(const std::filesystem::path& file, const std::function<void()>& read) {

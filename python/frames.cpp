@@ -47,7 +47,11 @@ py::class_<FrameObject, SharedFrame> bind_frame(py::module_& m) {
   py::class_<FrameObject, SharedFrame> frame(m, "Frame", d::self);
   const auto array = [&frame](const char* name, auto member, const char* doc) {
     frame.def_property_readonly(
-        name, [member](const SharedFrame& self) { return view((*self->frame).*member, py::cast(self)); },
+        name,
+        [member](const SharedFrame& self) {
+          const py::object owner = owner_of(self);
+          return view((*self->frame).*member, owner);
+        },
         doc);
   };
   array("positions", &Frame::positions, d::positions);
@@ -83,7 +87,12 @@ void bind_state(py::module_& m, const py::class_<FrameObject, SharedFrame>& fram
   py::class_<StateObject, SharedState> state(m, "State", frame, d::self);
   const auto array = [&state](const char* name, auto member, const char* doc) {
     state.def_property_readonly(
-        name, [member](const SharedState& self) { return view((*self).*member, py::cast(self)); }, doc);
+        name,
+        [member](const SharedState& self) {
+          const py::object owner = owner_of(self);
+          return view((*self).*member, owner);
+        },
+        doc);
   };
   array("working_positions", &StateObject::working_positions, d::working_positions);
   array("velocities", &StateObject::velocities, d::velocities);
@@ -94,7 +103,7 @@ void bind_state(py::module_& m, const py::class_<FrameObject, SharedFrame>& fram
   state.def_property_readonly(
       "forces",
       [](const SharedState& self) {
-        const py::object owner = py::cast(self);
+        const py::object owner = owner_of(self);
         const ForceBreakdown& forces = self->forces;
         py::dict by_kind;
         by_kind["elastic"] = view(forces.elastic, owner);

@@ -169,7 +169,12 @@ void bind_arrays(py::class_<LeafObject, Shared>& leaf) {
   namespace d = docs::Leaf;
   const auto array = [&leaf](const char* name, auto values, const char* doc) {
     leaf.def_property_readonly(
-        name, [values](const Shared& self) { return view(values(self->leaf), py::cast(self)); }, doc);
+        name,
+        [values](const Shared& self) {
+          const py::object owner = owner_of(self);
+          return view(values(self->leaf), owner);
+        },
+        doc);
   };
   array(
       "positions", [](const Leaf& l) -> const Points3& { return l.positions; }, d::positions);
@@ -185,8 +190,9 @@ void bind_arrays(py::class_<LeafObject, Shared>& leaf) {
   leaf.def_property_readonly(
       "stalk_radii",
       [](const Shared& self) {
+        const py::object owner = owner_of(self);
         const std::vector<double>& radii = self->leaf.stalk.radii;
-        return view(radii.data(), {static_cast<py::ssize_t>(radii.size())}, py::cast(self));
+        return view(radii.data(), {static_cast<py::ssize_t>(radii.size())}, owner);
       },
       docs::Stalk::radii);
   leaf.def_property_readonly(

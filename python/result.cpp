@@ -7,6 +7,7 @@
 #include "bindings.hpp"
 #include "computing.hpp"
 #include "docs.hpp"
+#include "errors.hpp"
 #include "wilt/core/error.hpp"
 #include "wilt/core/file.hpp"
 #include "wilt/core/nearest.hpp"
@@ -157,7 +158,9 @@ void bind_result(py::module_& m) {
   result.def(
       "save",
       [](const ResultObject& self, const py::args& paths, int max_morphs, int lods, const std::string& vat) {
-        save(self, paths.cast<std::vector<std::filesystem::path>>(), {max_morphs, lods, vat});
+        std::vector<std::filesystem::path> names;
+        for (const py::handle path : paths) names.push_back(path_of(path));
+        save(self, names, {max_morphs, lods, vat});
       },
       py::kw_only(), py::arg("max_morphs") = 0, py::arg("lods") = 0, py::arg("vat") = "exr",
       with_arguments(docs::save, {{"max_morphs", docs::SaveOptions::max_morphs},

@@ -32,7 +32,7 @@ Toml toml_of(const py::object& config) {
     const std::string text = config.cast<std::string>();
     if (text.find('=') != std::string::npos) return {text, "config"};
   }
-  const auto path = config.cast<std::filesystem::path>();
+  const auto path = path_of(config);
   Toml toml{"", path.string()};
   reading(path, [&] { toml.text = read_file(path.string(), kLargestConfig); });
   return toml;
@@ -140,7 +140,7 @@ void bind_simulation(py::module_& m) {
                        const py::kwargs& settings) {
              return make_simulation(leaf, {model, veins, config, settings});
            }),
-           py::arg("leaf"), py::arg("model") = none, py::kw_only(), py::arg("veins") = none,
+           py::arg("leaf").none(false), py::arg("model") = none, py::kw_only(), py::arg("veins") = none,
            py::arg("config") = none, arguments.c_str())
       .def("step", &step, d::step)
       .def("run", &run_to_end, py::arg("callback") = none, docs::run_to_end)
@@ -162,9 +162,9 @@ void bind_simulation(py::module_& m) {
           "veins",
           [](const RunObject& run) { return std::const_pointer_cast<VeinsObject>(run.subject().veins); },
           docs::Venation::self)
-      .def("__repr__", [](const Shared& run) {
-        return fmt::format("<wilt.Simulation of {}: iteration {} of {}>", run->subject().leaf->leaf.name,
-                           waiting(&RunObject::iteration)(*run), run->last_iteration());
+      .def("__repr__", [](const RunObject& run) {
+        return fmt::format("<wilt.Simulation of {}: iteration {} of {}>", run.subject().leaf->leaf.name,
+                           waiting(&RunObject::iteration)(run), run.last_iteration());
       });
 }
 

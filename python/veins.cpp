@@ -98,7 +98,12 @@ void bind_fields(py::class_<VeinsObject, Shared>& veins) {
   namespace p = docs::MarginProfile;
   const auto array = [&veins](const char* name, auto values, const char* doc) {
     veins.def_property_readonly(
-        name, [values](const Shared& self) { return view(values(self->venation), py::cast(self)); }, doc);
+        name,
+        [values](const Shared& self) {
+          const py::object owner = owner_of(self);
+          return view(values(self->venation), owner);
+        },
+        doc);
   };
   array(
       "s", [](const Venation& v) -> const Eigen::VectorXd& { return v.margin.s; }, p::s);
@@ -127,6 +132,7 @@ void bind_veins(py::module_& m) {
   veins.def_property_readonly(
       "veins",
       [](const Shared& self) {
+        owner_of(self);
         std::vector<VeinObject> list;
         for (const Vein& vein : self->venation.veins) list.push_back({self, &vein});
         return list;

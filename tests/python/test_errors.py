@@ -59,6 +59,14 @@ class Messages(WithFolder):
         with self.assertRaisesRegex(ValueError, "200"):
             wilt.Leaf.from_species("maple", vertices=7)
 
+    def test_none_and_what_was_not_made_are_refused(self):
+        for act in (lambda: wilt.Simulation(None), lambda: wilt.Leaf(), lambda: wilt.Leaf.positions.fget(None),
+                    lambda: wilt.Frame.dryness.fget(None), lambda: wilt.State.water.fget(None), lambda: wilt.Venation.s.fget(None),
+                    lambda: wilt.Venation.veins.fget(None), lambda: wilt.Leaf.veins(None), lambda: wilt.Simulation.run(None),
+                    lambda: wilt.Simulation("maple"), lambda: wilt.Simulation(LEAF, config=7),
+                    lambda: wilt.Simulation(LEAF, iterations=0).result.save(3)):
+            self.assertRaises(TypeError, act)
+
     def test_a_leafs_seed_and_size_are_its_own(self):
         with self.assertRaisesRegex(ValueError, "seed is 4, but the leaf was made with 1; give seed=4 where it is made"):
             wilt.Simulation(LEAF, seed=4)
