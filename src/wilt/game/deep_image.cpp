@@ -81,9 +81,13 @@ std::string encode_png16(const DeepImage& image) {
     bytes.push_back(static_cast<unsigned char>(level >> 8));
     bytes.push_back(static_cast<unsigned char>(level & 0xff));
   }
+  lodepng::State state;
+  state.encoder.auto_convert = 0;  // left to itself it writes 8 bits of 16 where that loses nothing
+  for (LodePNGColorMode* mode : {&state.info_raw, &state.info_png.color})
+    mode->colortype = LCT_RGB, mode->bitdepth = 16;
   std::vector<unsigned char> png;
   const unsigned error = lodepng::encode(png, bytes, static_cast<unsigned>(image.width),
-                                         static_cast<unsigned>(image.height), LCT_RGB, 16);
+                                         static_cast<unsigned>(image.height), state);
   if (error != 0) cannot_encode(image, "PNG", lodepng_error_text(error));
   return {png.begin(), png.end()};
 }
