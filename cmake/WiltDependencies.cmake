@@ -13,6 +13,7 @@ if(EMSCRIPTEN)
     target_include_directories(${target} SYSTEM INTERFACE ${headers})
   endforeach()
   target_compile_definitions(fmt::fmt-header-only INTERFACE FMT_HEADER_ONLY=1)
+  set(WILT_PYTHON_MODULE OFF)
   return()
 endif()
 

@@ -3,12 +3,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <new>
+#include <random>
 
 #include "wilt/batch/item_files.hpp"
 #include "wilt/batch/manifest.hpp"
@@ -43,23 +44,16 @@ std::string host_name() {
 /// left by a process that was killed.
 class Workshop {
  public:
-  explicit Workshop(const fs::path& item)
-      : path_(item.parent_path() / fmt::format(".{}.{}.XXXXXX", item.filename().string(), host_name())) {
-    std::string name = path_.string();
-    if (::mkdtemp(name.data()) == nullptr) fail(path_, errno);
-    path_ = name;
-    descriptor_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor_ < 0) fail(path_, errno);
-    ::flock(descriptor_, LOCK_EX | LOCK_NB);
-    fs::permissions(path_, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
-                               fs::perms::others_read | fs::perms::others_exec);
+  explicit Workshop(const fs::path& item) {
+    while (!begin(item)) {
+    }
   }
   Workshop(const Workshop&) = delete;
   Workshop& operator=(const Workshop&) = delete;
   ~Workshop() {
     std::error_code ignored;
     if (!path_.empty()) fs::remove_all(path_, ignored);
-    ::close(descriptor_);
+    if (descriptor_ >= 0) ::close(descriptor_);
   }
 
   const fs::path& path() const { return path_; }
@@ -76,6 +70,21 @@ class Workshop {
   }
 
  private:
+  // False when another process swept the folder away before it was locked.
+  bool begin(const fs::path& item) {
+    std::random_device device;
+    path_ =
+        item.parent_path() / fmt::format(".{}.{}.{:08x}", item.filename().string(), host_name(), device());
+    if (::mkdir(path_.c_str(), 0777) != 0) fail(path_, errno);
+    descriptor_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor_ < 0 && errno != ENOENT) fail(path_, errno);
+    const bool taken =
+        descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (descriptor_ >= 0 && !taken && fs::exists(path_)) return true;
+    if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+    return false;
+  }
+
   fs::path path_;
   int descriptor_ = -1;
 };
@@ -188,6 +197,7 @@ void Batch::forget_failure(int item) const {
 }
 
 bool Batch::finish(const Monitor& monitor) {
+  sweep(folder_ / "items");  // after workers that were killed
   std::vector<ItemState> states;
   std::string all = plan_.text();
   for (int item = 0; item < plan_.count(); ++item) {
