@@ -66,7 +66,7 @@ class Making {
       count_failure(report.piece);
     } else if (report.answer == "whole") {
       ++tally.made;
-    } else {
+    } else if (!tally.ended) {  // others then say that they were interrupted
       const std::size_t space = report.answer.find(' ');
       tally.ended = Error(static_cast<ErrorCode>(std::stoi(report.answer)), report.answer.substr(space + 1));
     }
