@@ -92,7 +92,6 @@ std::vector<int> missing_items(Batch& batch, const Request& request, Tally& tall
   for (int item = 0; item < batch.plan().count(); ++item) {
     if (!shard.has(item)) continue;
     const ItemState state = batch.state(item);
-    if (state == ItemState::failed && request.retry) batch.forget_failure(item);
     if (state == ItemState::whole) {
       ++tally.there;
     } else if (state == ItemState::missing || request.retry) {
@@ -112,6 +111,7 @@ int processes_for(const Request& request) {
 Tally make_items(Batch& batch, const Request& request, Terminal& terminal) {
   Tally before;
   const std::vector<int> missing = missing_items(batch, request, before);
+  for (const int item : missing) batch.forget_failure(item);  // of those that are to be tried again
   const int processes = processes_for(request);
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   Making making(batch, terminal, static_cast<int>(missing.size()));
@@ -175,7 +175,7 @@ class TemporaryFolder {
 void estimate(const Plan& plan, const Request& request, const GlobalOptions& options, Terminal& terminal) {
   Tally before;
   std::vector<int> missing;
-  if (fs::exists(request.folder)) {
+  if (fs::exists(fs::path(request.folder) / "items")) {
     Batch batch(plan, request.folder);
     missing = missing_items(batch, request, before);
   } else {
@@ -187,6 +187,7 @@ void estimate(const Plan& plan, const Request& request, const GlobalOptions& opt
   quiet.note = nullptr;
   const TemporaryFolder elsewhere;
   Batch trial(plan, elsewhere.path());
+  const ThreadLimit one_core(1);
   const int tries = std::min<int>(kTries, static_cast<int>(missing.size()));
   int made = 0;
   const Clock::time_point start = Clock::now();
@@ -205,12 +206,12 @@ void estimate(const Plan& plan, const Request& request, const GlobalOptions& opt
   const nlohmann::ordered_json json = {{"items", plan.count()},   {"there", before.there},
                                        {"failed", before.failed}, {"to_make", missing.size()},
                                        {"core_seconds", seconds}, {"bytes", bytes}};
-  print_data(options.json
-                 ? json.dump(2) + "\n"
-                 : fmt::format("would make {} of {} items in {}: about {:.3g} core hours, {:.3g} GB; {} are "
-                               "there, {} have failed\n",
-                               missing.size(), plan.count(), request.folder, seconds / 3600.0, bytes / 1e9,
-                               before.there, before.failed));
+  print_data(options.json ? json.dump(2) + "\n"
+                          : fmt::format("would make {} of {} items in {}: about {:.3g} core hours ({:.3g} "
+                                        "hours in {} processes), {:.3g} GB; {} are there, {} have failed\n",
+                                        missing.size(), plan.count(), request.folder, seconds / 3600.0,
+                                        seconds / 3600.0 / processes_for(request), processes_for(request),
+                                        bytes / 1e9, before.there, before.failed));
 }
 
 void run(const Request& request, const GlobalOptions& options) {

@@ -190,6 +190,9 @@ class Batch(unittest.TestCase):
         (self.root / "missing.png").write_text("")  # other contents: another item
         self.assertIn("choose another folder", self.run_batch(plan, "failing").stderr)
         (self.root / "missing.png").unlink()
+        before = files_of(self.root / "failing")
+        self.run_batch(plan, "failing", "--retry", "--dry-run")
+        self.assertEqual(files_of(self.root / "failing"), before)
         retried = self.run_batch(plan, "failing", "--retry")
         self.assertEqual(retried.returncode, 4)
 
