@@ -58,13 +58,19 @@ std::optional<Vec2> pair_of(const Point& point) {
   return Vec2((*point)[0], (*point)[1]);
 }
 
-Shared from_file(const std::filesystem::path& path, std::optional<int> vertices, const Point& petiole,
-                 int nth, std::uint64_t seed, bool scan, std::optional<double> mm_per_unit) {
+// What every kind of file takes.
+ReadOptions read_options(std::optional<int> vertices, const Point& petiole, int nth, std::uint64_t seed) {
   ReadOptions options;
   options.vertices = vertices;
   options.petiole = pair_of(petiole);
   options.nth = nth;
   options.seed = seed;
+  return options;
+}
+
+Shared from_file(const std::filesystem::path& path, std::optional<int> vertices, const Point& petiole,
+                 int nth, std::uint64_t seed, bool scan, std::optional<double> mm_per_unit) {
+  ReadOptions options = read_options(vertices, petiole, nth, seed);
   options.scan = scan;
   options.mm_per_unit = mm_per_unit;
   return read(path, options);
@@ -73,11 +79,7 @@ Shared from_file(const std::filesystem::path& path, std::optional<int> vertices,
 Shared from_photo(const std::filesystem::path& path, std::optional<int> vertices, const Point& petiole,
                   int nth, std::uint64_t seed, std::optional<double> mm_per_pixel,
                   const std::optional<std::filesystem::path>& mask, std::optional<double> threshold) {
-  ReadOptions options;
-  options.vertices = vertices;
-  options.petiole = pair_of(petiole);
-  options.nth = nth;
-  options.seed = seed;
+  ReadOptions options = read_options(vertices, petiole, nth, seed);
   options.mm_per_pixel = mm_per_pixel;
   options.mask = mask.value_or("");
   options.threshold = threshold;

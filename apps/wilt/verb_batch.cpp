@@ -103,9 +103,12 @@ std::vector<int> missing_items(Batch& batch, const Request& request, Tally& tall
   return missing;
 }
 
+int cores() {
+  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
 int processes_for(const Request& request) {
-  return request.jobs > 0 ? request.jobs
-                          : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return request.jobs > 0 ? request.jobs : cores();
 }
 
 Tally make_items(Batch& batch, const Request& request, Terminal& terminal) {
@@ -113,14 +116,13 @@ Tally make_items(Batch& batch, const Request& request, Terminal& terminal) {
   const std::vector<int> missing = missing_items(batch, request, before);
   for (const int item : missing) batch.forget_failure(item);  // of those that are to be tried again
   const int processes = processes_for(request);
-  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   Making making(batch, terminal, static_cast<int>(missing.size()));
   Monitor monitor = terminal.monitor();
   monitor.cancelled = [&making] { return interrupted() || making.tally.ended.has_value(); };
   work_in_processes(
       missing, processes,
       [&](int item, const Monitor& child) {
-        const ThreadLimit limit(std::max(1, cores / processes));
+        const ThreadLimit limit(std::max(1, cores() / processes));
         return answer_of(batch, item, child);
       },
       [&](const WorkReport& report) { making.take(report); }, monitor);

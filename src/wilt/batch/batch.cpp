@@ -12,6 +12,7 @@
 #include <random>
 
 #include "wilt/batch/item_files.hpp"
+#include "wilt/batch/item_fingerprint.hpp"
 #include "wilt/batch/manifest.hpp"
 #include "wilt/batch/sha256.hpp"
 #include "wilt/core/file.hpp"
@@ -124,18 +125,20 @@ std::string fingerprint_in(const fs::path& file) {
 }  // namespace
 
 Batch::Batch(const Plan& plan, fs::path folder)
-    : plan_(plan), folder_(std::move(folder)), fingerprints_(plan.outputs()) {
+    : plan_(plan), folder_(std::move(folder)), fingerprints_(std::make_unique<Fingerprints>(plan.outputs())) {
   make_folder(folder_ / "items");
   make_folder(folder_ / "failed");
   sweep(folder_ / "items");
 }
 
+Batch::~Batch() = default;
+
 fs::path Batch::item_folder(int item) const {
-  return folder_ / "items" / fmt::format("{:06}", item);
+  return folder_ / "items" / item_name(item);
 }
 
 fs::path Batch::failure_file(int item) const {
-  return folder_ / "failed" / fmt::format("{:06}.json", item);
+  return folder_ / "failed" / (item_name(item) + ".json");
 }
 
 ItemState Batch::state(int item) {
@@ -146,7 +149,7 @@ std::pair<ItemState, std::string> Batch::find(int item) {
   const std::string made = fingerprint_in(item_folder(item) / kItemLabels);
   const std::string failed = made.empty() ? fingerprint_in(failure_file(item)) : "";
   if (made.empty() && failed.empty()) return {ItemState::missing, {}};
-  const std::string wanted = fingerprints_.of(plan_.item(item));
+  const std::string wanted = fingerprints_->of(plan_.item(item));
   if (made == wanted) return {ItemState::whole, wanted};
   if (failed == wanted) return {ItemState::failed, wanted};
   throw Error(
@@ -162,7 +165,7 @@ ItemState Batch::make(int number, const Monitor& monitor) {
   const Item item = plan_.item(number);
   try {
     Workshop workshop(item_folder(number));
-    make_item(item, plan_.outputs(), fingerprints_.of(item), workshop.path(), leaves_, monitor);
+    make_item(item, plan_.outputs(), fingerprints_->of(item), workshop.path(), leaves_, monitor);
     if (!workshop.rename_to(item_folder(number))) return state(number);
     return ItemState::whole;
   } catch (const Error& error) {
@@ -179,7 +182,7 @@ ItemState Batch::make(int number, const Monitor& monitor) {
 void Batch::record_failure(int number, ErrorCode code, const std::string& reason) {
   const Item item = plan_.item(number);
   Json json = {{"item", number},
-               {"fingerprint", fingerprints_.of(item)},
+               {"fingerprint", fingerprints_->of(item)},
                {"code", static_cast<int>(code)},
                {"reason", without_folders(reason, item.leaf)}};
   json["chosen"] = Json::parse(chosen_json(item));

@@ -10,10 +10,10 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 
-#include "wilt/batch/item_fingerprint.hpp"
 #include "wilt/batch/plan.hpp"
 #include "wilt/batch/prepared_leaves.hpp"
 #include "wilt/core/error.hpp"
@@ -21,12 +21,15 @@
 
 namespace wilt {
 
+class Fingerprints;
+
 enum class ItemState { missing, whole, failed };
 
 class Batch {
  public:
   /// Makes the folder. Refers to the plan, which must outlive it. Throws Error{output}.
   Batch(const Plan& plan, std::filesystem::path folder);
+  ~Batch();
 
   /// Whether the item is there. Throws Error{configuration} when it is there, but of another plan or version
   /// of wilt: nothing is overwritten.
@@ -56,7 +59,7 @@ class Batch {
 
   const Plan& plan_;
   std::filesystem::path folder_;
-  Fingerprints fingerprints_;
+  std::unique_ptr<Fingerprints> fingerprints_;
   PreparedLeaves leaves_;
 };
 

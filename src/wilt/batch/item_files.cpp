@@ -98,6 +98,10 @@ Json listed(const std::filesystem::path& folder) {
 
 }  // namespace
 
+std::string item_name(int number) {
+  return fmt::format("{:06}", number);
+}
+
 void check_item_files(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (name.empty() || name.find('/') != std::string::npos || name.front() == '.' || name == kItemLabels)

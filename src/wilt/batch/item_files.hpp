@@ -14,6 +14,9 @@ namespace wilt {
 /// The labels of an item and the list of its files: written last, so that with it the item is whole.
 inline constexpr const char* kItemLabels = "item.json";
 
+/// What an item is called in folders and archives: "000017".
+std::string item_name(int number);
+
 /// Throws Error{configuration} unless every name is that of a file in the item's folder whose end says what
 /// it is: a result (result_formats.hpp), or one of report.json, forces.csv, veins.json, veins.svg.
 void check_item_files(const std::vector<std::string>& names);

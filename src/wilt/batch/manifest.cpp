@@ -29,7 +29,7 @@ struct WholeItem {
 };
 
 WholeItem read_item(const fs::path& batch, int number) {
-  WholeItem item{fmt::format("{:06}", number), {}, {}, {}};
+  WholeItem item{item_name(number), {}, {}, {}};
   item.folder = batch / "items" / item.name;
   item.labels_text = item.bytes(kItemLabels);
   item.labels = Json::parse(item.labels_text);
@@ -93,7 +93,7 @@ void write_manifest(const Plan& plan, const fs::path& folder, const std::vector<
     monitor.throw_if_cancelled();
     monitor.report("manifest", double(number) / double(states.size()));
     if (states[static_cast<std::size_t>(number)] == ItemState::failed) {
-      const std::string file = (folder / "failed" / fmt::format("{:06}.json", number)).string();
+      const std::string file = (folder / "failed" / (item_name(number) + ".json")).string();
       lines.write(Json::parse(read_file(file)).dump() + "\n");
       continue;
     }
