@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "wilt/import/read_leaf.hpp"
+#include "wilt/import/svg_element.hpp"
 #include "wilt/leaf/outline.hpp"
 
 namespace wilt::detail {
@@ -26,8 +27,12 @@ struct DrawnLeaf {
 /// only "outline" must be there. Throws Error{input}, naming the place, for anything else.
 DrawnLeaf parse_json_outline(std::string_view text);
 
-/// The `nth` largest leaf of a drawing (SVG), its stalk joined to it if that is a shape of its own. Nothing
-/// that the drawing refers to is opened, and its XML entities are not expanded. Throws Error{input}.
+/// The `nth` largest leaf of a drawing, its stalk joined to it if that is a shape of its own. Throws
+/// Error{input}.
+DrawnLeaf outline_of_drawing(const svg::Elements& elements, int nth);
+
+/// The same of an SVG file's text. Nothing that the drawing refers to is opened, and its XML entities are not
+/// expanded. Throws Error{input}.
 DrawnLeaf parse_svg_outline(std::string_view text, int nth);
 
 /// parse_svg_outline in a process of its own, with its limits (isolated.hpp).
