@@ -1,4 +1,3 @@
-// A drawing's elements from a page, whose browser parsed the XML.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
