@@ -146,6 +146,7 @@ LeafPaint::LeafPaint(const Leaf& leaf, const Venation& venation, const Config& c
                      const std::vector<Eigen::VectorXd>& states)
     : paint_(std::make_unique<Paint>(leaf, venation, config, states)) {}
 LeafPaint::LeafPaint(LeafPaint&&) noexcept = default;
+LeafPaint& LeafPaint::operator=(LeafPaint&&) noexcept = default;
 LeafPaint::~LeafPaint() = default;
 
 Points3 LeafPaint::blade(const Eigen::VectorXd& dryness) const {

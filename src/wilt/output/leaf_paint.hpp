@@ -25,6 +25,7 @@ class LeafPaint {
   LeafPaint(const Leaf& leaf, const Venation& venation, const Config& config,
             const std::vector<Eigen::VectorXd>& states);
   LeafPaint(LeafPaint&&) noexcept;
+  LeafPaint& operator=(LeafPaint&&) noexcept;
   ~LeafPaint();
 
   /// Linear RGB, #V x 3, at a dryness (#V).
