@@ -5,11 +5,16 @@
 #include <string_view>
 
 #include "wilt/import/leaf_in_memory.hpp"
+#include "wilt/import/svg_element.hpp"
 
 namespace wilt::detail {
 
-/// The `nth` largest leaf of a drawing (SVG), its stalk joined to it if that is a shape of its own. Nothing
-/// that the drawing refers to is opened, and its XML entities are not expanded. Throws Error{input}.
+/// The `nth` largest leaf of a drawing, its stalk joined to it if that is a shape of its own. Throws
+/// Error{input}.
+DrawnLeaf outline_of_drawing(const svg::Elements& elements, int nth);
+
+/// The same of an SVG file's text. Nothing that the drawing refers to is opened, and its XML entities are not
+/// expanded. Throws Error{input}.
 DrawnLeaf parse_svg_outline(std::string_view text, int nth);
 
 /// parse_svg_outline in a process of its own, with its limits (isolated.hpp).

@@ -41,6 +41,11 @@ struct DrawnLeaf {
 /// only "outline" must be there. Throws Error{input}, naming the place, for anything else.
 DrawnLeaf parse_json_outline(std::string_view text);
 
+/// The `nth` largest leaf of a drawing (SVG) that somebody else parsed: its elements as JSON, [[depth, name,
+/// {attribute: value, ...}, text of a style sheet], ...] in the order of the document, the root at depth 0.
+/// Throws Error{input}.
+DrawnLeaf drawn_from_elements(std::string_view json, int nth);
+
 /// The leaf `name` of an outline: its stalk is cut off, its petiole found, the blade meshed. Of the options,
 /// those of an outline count, and of a photo's, mm_per_pixel. Throws Error{input}. Deterministic.
 Leaf leaf_from_drawing(DrawnLeaf drawn, const std::string& name, const ReadOptions& options = {},
