@@ -39,8 +39,9 @@ PressureOptions pressure_options(const Config& config, WaterForm form) {
 
 }  // namespace
 
-LeafWater::LeafWater(const Config& config, WaterForm form, const Eigen::VectorXd& mass, double loss,
-                     double scale, const Edges& edges, const Eigen::VectorXd& rest_lengths)
+LeafWater::LeafWater(const Config& config, WaterForm form, const Eigen::VectorXd& mass,
+                     const Eigen::VectorXd& loss, double scale, const Edges& edges,
+                     const Eigen::VectorXd& rest_lengths)
     : pressure_options_(pressure_options(config, form)),
       dryness_scale_(config.water.dryness_scale),
       permeation_(static_cast<int>(mass.size()), edges, rest_lengths,
@@ -48,7 +49,7 @@ LeafWater::LeafWater(const Config& config, WaterForm form, const Eigen::VectorXd
       dry_((1.0 - config.mass.water_fraction) * mass),
       water_(config.mass.water_fraction * mass),
       first_water_(water_),
-      loss_(Eigen::VectorXd::Constant(mass.size(), loss)),
+      loss_(loss),
       pressure_(Eigen::VectorXd::Zero(mass.size())),
       printed_permeation_(form == WaterForm::printed &&
                           permeation_.printed_number(dry_, water_, config.dt) <= kLargestNumber) {}

@@ -18,9 +18,9 @@ enum class WaterForm { printed, conservative };
 
 class LeafWater {
  public:
-  /// `mass` #V, m at the start; `loss` per cell and time unit; `scale` is what the masses were scaled by.
-  LeafWater(const Config& config, WaterForm form, const Eigen::VectorXd& mass, double loss, double scale,
-            const Edges& edges, const Eigen::VectorXd& rest_lengths);
+  /// `mass` #V, m at the start; `loss` #V per time unit; `scale` is what the masses were scaled by.
+  LeafWater(const Config& config, WaterForm form, const Eigen::VectorXd& mass, const Eigen::VectorXd& loss,
+            double scale, const Edges& edges, const Eigen::VectorXd& rest_lengths);
 
   /// No cell falls below 1e-3 times `scale`, or a tenth of the driest cell's first water where that is less.
   /// Throws Error{simulation} when a mass is not finite, and, in the conservative form, when the solver stops
