@@ -94,7 +94,7 @@ TEST(StudioSession, ListsEverySettingWithItsValueNow) {
   StudioSession session = maple();
   step_to(session, 2);
   session.change("water.humidity", "0.75");
-  const auto list = nlohmann::json::parse(settings_json(config_after(session.config(), 2)));
+  const auto list = nlohmann::json::parse(settings_json(session.settings_now()));
   ASSERT_EQ(list.size(), settings().size());
   for (const auto& row : list) {
     if (row["key"] != "water.humidity") continue;
