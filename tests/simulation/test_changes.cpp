@@ -92,6 +92,9 @@ TEST_P(ChangedRun, GoesOnFromACheckpointAsIfItHadNeverBeenLeft) {
   add_change(s.config, 0, "water.loss_rate", "0.04");
   add_change(s.config, 4, "springs.stiffness", "7");
   add_change(s.config, 4, "water.diffusion", "0.3");
+  add_change(s.config, 6, "water.diffusion", "0.05");
+  add_change(s.config, 6, "water.dry_region", "0,0,0.5,0,0.5,0.5");
+  add_change(s.config, 6, "pressure.cell_constant", "3e-4");
   add_change(s.config, 8, "gravity.strength", "0.01");
   add_change(s.config, 8, "springs.stiffness", "3");
   Simulation whole = start(s);

@@ -158,6 +158,10 @@ void CellModel::advance(double dt, const Points3& x) {
   external_force_->set_values(external_.on_vertices());
 }
 
+void CellModel::change_water(const ModelInput& input) {
+  water_.change(input.config, water_loss(input, loss_rate(input)));
+}
+
 void CellModel::exchange_state(StateArchive& archive) {
   water_.exchange_state(archive);
   external_.exchange_state(archive);

@@ -22,6 +22,9 @@ class LeafWater {
   LeafWater(const Config& config, WaterForm form, const Eigen::VectorXd& mass, const Eigen::VectorXd& loss,
             double scale, const Edges& edges, const Eigen::VectorXd& rest_lengths);
 
+  /// Has other settings water.* and pressure.* from here on, and another loss.
+  void change(const Config& config, const Eigen::VectorXd& loss);
+
   /// No cell falls below 1e-3 times `scale`, or a tenth of the driest cell's first water where that is less.
   /// Throws Error{simulation} when a mass is not finite, and, in the conservative form, when the solver stops
   /// short or water is not what it was less what was lost, to 1e-9: the state is then not to be used.
@@ -37,11 +40,12 @@ class LeafWater {
   Eigen::VectorXd dryness() const;                              ///< #V, 0 to 1
 
  private:
+  WaterForm form_;
   PressureOptions pressure_options_;
   double dryness_scale_;
   Permeation permeation_;
   Eigen::VectorXd dry_, water_, first_water_, loss_, pressure_;  // pressure is p - p_out
-  bool printed_permeation_;
+  bool printed_permeation_ = false;
 };
 
 }  // namespace wilt

@@ -71,6 +71,10 @@ void PaperModel::advance(double dt, const Points3& x) {
   external_force_->set_values(external_.on_vertices());
 }
 
+void PaperModel::change_water(const ModelInput& input) {
+  water_.change(input.config, water_loss(input, input.config.water.loss_rate));
+}
+
 void PaperModel::exchange_state(StateArchive& archive) {
   water_.exchange_state(archive);
   external_.exchange_state(archive);

@@ -37,6 +37,11 @@ MidpointOptions midpoint_options(const Config& config) {
   return options;
 }
 
+// Whether a setting means nothing to the mechanics.
+bool is_of_water(const std::string& key) {
+  return key.rfind("water.", 0) == 0 || key.rfind("pressure.", 0) == 0;
+}
+
 std::vector<VertexId> tip_vertices(const Venation& venation) {
   std::vector<VertexId> tips;
   for (const Tip& tip : venation.tips) tips.push_back(tip.vertex);
@@ -127,9 +132,11 @@ class Simulation::Run {
   SimulationResult take_result() { return std::move(result_); }
 
  private:
+  ModelInput input(const Config& config) const { return {leaf_, venation_, config, scale_, rest_}; }
+
   // The model as these settings have it, at rest, and what steps and watches it.
   void build(const Config& config) {
-    auto model = make_model({leaf_, venation_, config, scale_, rest_});
+    auto model = make_model(input(config));
     integrator_.emplace(model->system(), midpoint_options(config));
     watchdog_.emplace(config.dt, config.solver.tolerance);
     model_ = std::move(model);
@@ -145,16 +152,27 @@ class Simulation::Run {
                        text.empty() ? "" : "; ", late.key, late.iteration, last_iteration());
   }
 
-  // Before a step: a model is a function of its settings and of the state that it exchanges, so one of the
-  // new settings goes on with the state of the old.
+  // Before a step. Settings of the water leave the mechanics as they are, matrices and all. Else: a model is
+  // a function of its settings and of the state that it exchanges, so one of the new settings goes on with
+  // the state of the old.
   void take_changes() {
-    const bool due = std::any_of(config_.changes.begin(), config_.changes.end(),
-                                 [this](const Change& change) { return change.iteration == iteration_; });
+    bool due = false, only_water = true;
+    for (const Change& change : config_.changes) {
+      if (change.iteration != iteration_) continue;
+      due = true;
+      only_water = only_water && is_of_water(change.key);
+    }
     if (!due) return;
+    const Config now = config_after(config_, iteration_);
+    if (only_water) {
+      model_->change_water(input(now));
+      result_.note = note();
+      return;
+    }
     StateArrays state;
     StateArchive left = StateArchive::saving(state), taken = StateArchive::restoring(state);
     model_->exchange_state(left);
-    build(config_after(config_, iteration_));
+    build(now);
     model_->exchange_state(taken);
   }
 
