@@ -120,6 +120,9 @@ Leaf leaf_of(const val& source) {
   const std::string name = text(source, "name");
   if (kind == "outline")
     return leaf_from_drawing(parse_json_outline(text(source, "outline")), name, options_of(source));
+  if (kind == "drawing")
+    return leaf_from_drawing(drawn_from_elements(text(source, "elements"), whole(source, "nth")), name,
+                             options_of(source));
   if (kind == "photo") return leaf_from_drawing(drawn_of(source["photo"]), name, options_of(source));
   throw Error(ErrorCode::input, fmt::format("'{}' is no kind of leaf", kind));
 }
