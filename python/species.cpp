@@ -27,8 +27,9 @@ py::dict all_settings(const std::string& species_name) {
     row["default"] = fresh_value(setting, values);
     row["unit"] = setting.unit;
     row["help"] = setting.help;
-    if (values.at(setting.key).is_number()) row["range"] = py::make_tuple(setting.min, setting.max);
+    if (setting.has_range()) row["range"] = py::make_tuple(setting.min, setting.max);
     if (!setting.words.empty()) row["words"] = setting.words;
+    row["during_run"] = setting.during_run;
     all[setting.key.c_str()] = row;
   }
   return all;
@@ -60,7 +61,8 @@ void bind_species(py::module_& m) {
       .def("__repr__", [](const Species& s) { return "<wilt.Species " + s.name + ": " + s.common + ">"; });
   m.def("species", all_species, "{name: Species} of what is built in, in the order of the paper's Table 1.");
   m.def("settings", all_settings, py::arg("species") = "generic",
-        "{key: {default, unit, help, range or words}} of every setting of a simulation, with a species' "
+        "{key: {default, unit, help, range or words, during_run}} of every setting of a simulation, with a "
+        "species' "
         "defaults.");
 }
 

@@ -25,8 +25,8 @@ std::vector<SettingText> list_settings(const Config& config) {
     const Json& value = values.at(setting.key);
     list.push_back({setting.key, value.is_string() ? value.get<std::string>() : value.dump(), setting.unit,
                     setting.help,
-                    value.is_number() ? fmt::format("{} to {}", setting.min, setting.max)
-                                      : fmt::format("{}", fmt::join(words_for(setting, value), ", "))});
+                    setting.has_range() ? fmt::format("{} to {}", setting.min, setting.max)
+                                        : fmt::format("{}", fmt::join(words_for(setting, value), ", "))});
   }
   return list;
 }
@@ -39,10 +39,11 @@ std::string settings_json(const Config& config) {
     const Json& value = values.at(setting.key);
     Json row = {
         {"key", setting.key}, {"value", value}, {"default", fresh.at(setting.key)}, {"unit", setting.unit}};
-    if (value.is_number())
+    if (setting.has_range())
       row["range"] = {setting.min, setting.max};
     else
       row["words"] = words_for(setting, value);
+    row["during_run"] = setting.during_run;
     row["help"] = setting.help;
     list.push_back(std::move(row));
   }

@@ -12,8 +12,9 @@
 namespace wilt::random_settings {
 namespace {
 
-// How long a run takes, and what it is a run of: drawn apart.
-const std::set<std::string> kApart = {"model", "species", "vertices", "iterations", "texture.size"};
+// How long a run takes, and what it is a run of: drawn apart. Nobody knows the number of tips before.
+const std::set<std::string> kApart = {"model",      "species",      "vertices",
+                                      "iterations", "texture.size", "external.forces"};
 
 template <class T>
 const T& pick(const std::vector<T>& values, Random& random) {
@@ -48,18 +49,33 @@ std::vector<std::string> words_of(const Setting& setting, Config& config) {
   return std::holds_alternative<bool*>(field) ? std::vector<std::string>{"true", "false"} : setting.words;
 }
 
+// A polygon within the leaf's reach, or none.
+std::string region_of(Random& random) {
+  const int corners = random.index(4) == 0 ? 0 : 3 + random.index(6);
+  std::vector<std::string> places;
+  for (int k = 0; k < 2 * corners; ++k) places.push_back(text_of(random.uniform(-1.0, 1.0), false));
+  return fmt::format("{}", fmt::join(places, ","));
+}
+
+bool is_list(const Setting& setting, Config& config) {
+  return std::holds_alternative<std::vector<double>*>(setting.field(config));
+}
+
 std::string at_an_end(const Setting& setting, Config& config, Random& random) {
+  if (is_list(setting, config)) return region_of(random);
   if (const auto words = words_of(setting, config); !words.empty()) return pick(words, random);
   return text_of(random.index(2) == 0 ? setting.min : setting.max, whole(setting, config));
 }
 
 std::string anywhere(const Setting& setting, Config& config, Random& random) {
+  if (is_list(setting, config)) return region_of(random);
   if (const auto words = words_of(setting, config); !words.empty()) return pick(words, random);
   if (random.index(10) == 0) return at_an_end(setting, config, random);
   return text_of(between(setting.min, setting.max, random), whole(setting, config));
 }
 
 std::string near_default(const Setting& setting, Config& config, Random& random) {
+  if (is_list(setting, config)) return region_of(random);
   if (const auto words = words_of(setting, config); !words.empty()) return pick(words, random);
   const double value = number_of(setting, config) * std::exp(random.uniform(-std::log(2.0), std::log(2.0)));
   return text_of(std::clamp(value, setting.min, setting.max), whole(setting, config));

@@ -32,6 +32,7 @@ struct Inspection {
   void steps() const;
   void frames() const;
   void water() const;
+  double loss_weights() const;
   bool dry_cells() const;
 };
 
@@ -79,6 +80,25 @@ bool Inspection::dry_cells() const {
   return f / (1.0 - f) * (1.0 - config.mass.water_fraction) * config.mass.min < 1.01e-3;
 }
 
+// The sum over the vertices of what water.dry_region multiplies their loss by: a ray straight up that crosses
+// an odd number of sides begins inside.
+double Inspection::loss_weights() const {
+  const std::vector<double>& corners = config.water.dry_region;
+  const double length = leaf_length(leaf);
+  double sum = 0.0;
+  for (Eigen::Index v = 0; v < leaf.positions.rows(); ++v) {
+    const double x = leaf.positions(v, 0) / length, y = leaf.positions(v, 1) / length;
+    bool inside = false;
+    for (std::size_t k = 0, n = corners.size(); k < n; k += 2) {
+      const double x1 = corners[k], x2 = corners[(k + 2) % n];
+      const double y1 = corners[k + 1], y2 = corners[(k + 3) % n];
+      if ((x1 <= x) != (x2 <= x) && y1 + (x - x1) / (x2 - x1) * (y2 - y1) > y) inside = !inside;
+    }
+    sum += inside ? config.water.dry_factor : 1.0;
+  }
+  return sum;
+}
+
 // Oracle: the rate of the table, of which no cell loses more; all of it where no cell is dry. The printed
 // permeation makes and loses water; there only the sign and the size of the total are known.
 void Inspection::water() const {
@@ -87,9 +107,10 @@ void Inspection::water() const {
   air.celsius = config.water.temperature_c;
   air.humidity = config.water.humidity;
   air.table_rate = config.water.loss_rate;
-  const double n = leaf.mesh.num_vertices();
-  const double rate = cell ? static_cast<double>(config.reference.vertices) * dehydration_rate(air)
-                           : n * config.water.loss_rate;
+  const double n = leaf.mesh.num_vertices(), weights = loss_weights();
+  const double rate = weights / n *
+                      (cell ? static_cast<double>(config.reference.vertices) * dehydration_rate(air)
+                            : n * config.water.loss_rate);
   if (!cell && result.note.empty()) return;
   const bool all_of_it = !dry_cells();
   for (std::size_t k = 1; k < result.steps.size(); ++k) {

@@ -172,7 +172,7 @@ class Studio {
     });
   }
   val settings() {
-    return guarded([&] { return val(settings_json(session_->config())); });
+    return guarded([&] { return val(settings_json(session_->settings_now())); });
   }
   val toml(bool full) {
     return guarded([&] { return val(full ? session_->file("toml") : unusual_toml(session_->config())); });

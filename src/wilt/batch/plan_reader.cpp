@@ -92,13 +92,16 @@ Words extremes(const Distribution& values) {
 }
 
 Distribution setting_values(const std::string& key, const toml::node& node) {
-  Distribution values = parse_distribution(key, node);
   Config scratch = default_config(species("generic"));
-  for (const Setting& setting : settings()) {
-    if (setting.key != key) continue;
-    values.whole = std::holds_alternative<std::int64_t*>(setting.field(scratch));
-    if (values.spread == Spread::normal) keep_within(values, key, setting.min, setting.max);
-  }
+  const auto& table = settings();
+  const auto setting =
+      std::find_if(table.begin(), table.end(), [&key](const Setting& s) { return s.key == key; });
+  const bool known = setting != table.end();
+  if (known && std::holds_alternative<std::vector<double>*>(setting->field(scratch)))
+    fail(fmt::format("{} is a list of numbers; a plan takes settings of one value each", key));
+  Distribution values = parse_distribution(key, node);
+  values.whole = known && std::holds_alternative<std::int64_t*>(setting->field(scratch));
+  if (known && values.spread == Spread::normal) keep_within(values, key, setting->min, setting->max);
   for (const std::string& value : extremes(values)) set(scratch, key, value);
   return values;
 }

@@ -20,6 +20,19 @@ double signed_area(const Polyline& ring) {
   return 0.5 * twice;
 }
 
+bool is_inside(const Polyline& ring, const Vec2& p) {
+  bool inside = false;
+  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    const Vec2& a = ring[i];
+    const Vec2& b = ring[j];
+    if ((a.y() > p.y()) != (b.y() > p.y()) &&
+        p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) {
+      inside = !inside;
+    }
+  }
+  return inside;
+}
+
 Polyline spline_through(const Polyline& points, int per_span) {
   Polyline result;
   const std::size_t n = points.size();

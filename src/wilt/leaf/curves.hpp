@@ -1,4 +1,5 @@
-// Polylines in the plane: splines, even resampling, smoothing. Inside the rooms leaf and import only.
+// Polylines in the plane: splines, even resampling, smoothing. Inside the rooms leaf, import and
+// simulation only.
 #pragma once
 
 #include <vector>
@@ -18,6 +19,9 @@ double length_of(const Polyline& points, bool closed);
 
 /// The area inside a ring, positive when it runs counter-clockwise.
 double signed_area(const Polyline& ring);
+
+/// Whether a point lies inside a ring (even-odd). O(n).
+bool is_inside(const Polyline& ring, const Vec2& point);
 
 /// A centripetal Catmull-Rom spline through the points (Barry and Goldman's recursion), `per_span` points per
 /// span, its last point included. Two points give a straight line.

@@ -26,7 +26,4 @@ struct Crossing {
 /// segments of similar lengths.
 std::optional<Crossing> find_crossing(const std::vector<Polyline>& rings);
 
-/// Whether a point lies inside a ring (even-odd). O(n).
-bool is_inside(const Polyline& ring, const Vec2& point);
-
 }  // namespace wilt::detail

@@ -124,19 +124,6 @@ std::optional<Crossing> find_crossing(const std::vector<Polyline>& rings) {
   return std::nullopt;
 }
 
-bool is_inside(const Polyline& ring, const Vec2& p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Vec2& a = ring[i];
-    const Vec2& b = ring[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) {
-      inside = !inside;
-    }
-  }
-  return inside;
-}
-
 std::string ring_name(int ring) {
   return ring == 0 ? std::string("the margin") : fmt::format("hole {}", ring);
 }

@@ -106,8 +106,8 @@ Eigen::VectorXd bending_stiffness(const ModelInput& input, const Stencil& hinges
 CellModel::CellModel(const ModelInput& input)
     : edges_(input.leaf.mesh.edge_matrix()),
       resolution_(resolution(input)),
-      water_(input.config, WaterForm::conservative, cell_mass(input), loss_rate(input), resolution_, edges_,
-             rest_lengths(input.leaf.mesh, input.rest)),
+      water_(input.config, WaterForm::conservative, cell_mass(input), water_loss(input, loss_rate(input)),
+             resolution_, edges_, rest_lengths(input.leaf.mesh, input.rest)),
       external_(make_external_force(input, resolution_)),
       system_(water_.mass(), pinned_vertices(input)),
       droop_(input, water_.mass()),
@@ -156,6 +156,10 @@ void CellModel::advance(double dt, const Points3& x) {
   gravity_->set_masses(mass);
   gravity_->set_acceleration(droop_.gravity());
   external_force_->set_values(external_.on_vertices());
+}
+
+void CellModel::change_water(const ModelInput& input) {
+  water_.change(input.config, water_loss(input, loss_rate(input)));
 }
 
 void CellModel::exchange_state(StateArchive& archive) {

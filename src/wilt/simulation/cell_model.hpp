@@ -20,6 +20,7 @@ class CellModel : public DeformationModel {
   explicit CellModel(const ModelInput& input);
 
   void advance(double dt, const Points3& x) override;
+  void change_water(const ModelInput& input) override;
   System& system() override { return system_; }
   void exchange_state(StateArchive& archive) override;
   ForceBreakdown forces(const Points3& x, const Points3& v) const override;

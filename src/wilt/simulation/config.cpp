@@ -2,21 +2,22 @@
 
 #include <fmt/format.h>
 
-#include <toml++/toml.h>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
-#include <sstream>
+#include <optional>
+#include <utility>
 
 #include "wilt/core/error.hpp"
 #include "wilt/core/nearest.hpp"
+#include "wilt/simulation/setting_values.hpp"
 
 namespace wilt {
 namespace {
 
 using Words = std::vector<std::string>;
+
+constexpr std::size_t kLongestList = 3000;  // every vertex asks every corner of water.dry_region
 
 // The least that is allowed beside 0, where 0 has a meaning of its own.
 int least_above_zero(const std::string& key) {
@@ -26,6 +27,46 @@ int least_above_zero(const std::string& key) {
 [[noreturn]] void fail(const std::string& message) {
   throw Error(ErrorCode::configuration, message);
 }
+
+bool is_list(const Setting& setting) {
+  Config any;
+  return std::holds_alternative<std::vector<double>*>(setting.field(any));
+}
+
+std::string allowed(const Setting& setting) {
+  return fmt::format("{}{} must be between {} and {}{}", is_list(setting) ? "each number of " : "",
+                     setting.key, setting.min, setting.max, setting.unit.empty() ? "" : " " + setting.unit);
+}
+
+void check_range(const Setting& setting, double value) {
+  if (!(value >= setting.min && value <= setting.max))
+    fail(fmt::format("{}, not {}", allowed(setting), value));
+}
+
+double number_in(const Setting& setting, const std::string& text) {
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0') fail(fmt::format("{}, not '{}'", allowed(setting), text));
+  return number;
+}
+
+std::vector<double> numbers_in(const Setting& setting, const std::string& text) {
+  std::vector<double> numbers;
+  for (std::size_t at = 0; !text.empty() && at <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    numbers.push_back(number_in(setting, text.substr(at, comma - at)));
+    at = comma + 1;
+  }
+  return numbers;
+}
+
+bool comes_before(const Change& a, const Change& b) {
+  return std::pair(a.iteration, a.key) < std::pair(b.iteration, b.key);
+}
+
+}  // namespace
+
+namespace detail {
 
 const Setting& find_setting(std::string_view key) {
   Words keys;
@@ -37,14 +78,8 @@ const Setting& find_setting(std::string_view key) {
                    did_you_mean(key, keys)));
 }
 
-std::string allowed(const Setting& setting) {
-  return fmt::format("{} must be between {} and {}{}", setting.key, setting.min, setting.max,
-                     setting.unit.empty() ? "" : " " + setting.unit);
-}
-
-void check_range(const Setting& setting, double value) {
-  if (!(value >= setting.min && value <= setting.max))
-    fail(fmt::format("{}, not {}", allowed(setting), value));
+bool is_number(const Setting::Field& field) {
+  return std::holds_alternative<double*>(field) || std::holds_alternative<std::int64_t*>(field);
 }
 
 void assign_word(const Setting& setting, std::string& field, const std::string& value) {
@@ -75,76 +110,31 @@ void assign_number(const Setting& setting, const Setting::Field& field, double v
   }
 }
 
-bool is_number(const Setting::Field& field) {
-  return std::holds_alternative<double*>(field) || std::holds_alternative<std::int64_t*>(field);
+void assign_list(const Setting& setting, std::vector<double>& field, std::vector<double> values) {
+  const std::size_t count = values.size(), multiple = static_cast<std::size_t>(setting.multiple);
+  const auto refuse = [&](const std::string& wanted) {
+    fail(fmt::format("{} takes {}, not {}", setting.key, wanted, count));
+  };
+  if (count % multiple != 0) refuse(fmt::format("a multiple of {} numbers", multiple));
+  if (count > 0 && count < static_cast<std::size_t>(setting.fewest))
+    refuse(fmt::format("{} numbers or more, or none", setting.fewest));
+  if (count > kLongestList) refuse(fmt::format("{} numbers at most", kLongestList));
+  for (const double value : values) check_range(setting, value);
+  field = std::move(values);
 }
 
-void apply_table(Config& config, const toml::table& table, const std::string& prefix,
-                 std::string_view source);
-
-void apply_node(Config& config, const std::string& key, const toml::node& node, std::string_view source) {
-  if (const toml::table* nested = node.as_table()) return apply_table(config, *nested, key + ".", source);
-  try {
-    const Setting& setting = find_setting(key);
-    const Setting::Field field = setting.field(config);
-    if (is_number(field) && node.is_number()) {
-      assign_number(setting, field, *node.value<double>());
-    } else if (bool* const* flag = std::get_if<bool*>(&field); flag && node.is_boolean()) {
-      **flag = *node.value<bool>();
-    } else if (std::string* const* word = std::get_if<std::string*>(&field); word && node.is_string()) {
-      assign_word(setting, **word, *node.value<std::string>());
-    } else {
-      fail(fmt::format("{} must be {}", key,
-                       is_number(field)                       ? "a number"
-                       : std::holds_alternative<bool*>(field) ? "true or false"
-                                                              : "a word in quotes"));
-    }
-  } catch (const Error& error) {
-    fail(fmt::format("{}, line {}: {}", source, node.source().begin.line, error.what()));
-  }
-}
-
-void apply_table(Config& config, const toml::table& table, const std::string& prefix,
-                 std::string_view source) {
-  for (const auto& [key, node] : table) apply_node(config, prefix + std::string(key.str()), node, source);
-}
-
-toml::table parse(std::string_view toml, std::string_view source) {
-  check_toml_keys(toml, source);
-  try {
-    return toml::parse(toml);
-  } catch (const toml::parse_error& error) {
-    fail(fmt::format("{}, line {}: this is not TOML ({}); settings are lines like `dt = 0.1`", source,
-                     error.source().begin.line, error.description()));
-  }
-}
-
-// The shortest decimal form that reads back to the same number.
-std::string number_text(double value) {
-  return fmt::format("{}", value);
-}
-
-std::string value_text(const Setting& setting, Config& config) {
-  const Setting::Field field = setting.field(config);
-  if (auto* const* number = std::get_if<double*>(&field)) return number_text(**number);
+std::string value_text(const Setting& setting, const Config& config) {
+  Config copy = config;
+  const Setting::Field field = setting.field(copy);
+  if (auto* const* number = std::get_if<double*>(&field)) return fmt::format("{}", **number);
   if (auto* const* integer = std::get_if<std::int64_t*>(&field)) return fmt::format("{}", **integer);
   if (auto* const* flag = std::get_if<bool*>(&field)) return **flag ? "true" : "false";
-  return fmt::format("\"{}\"", *std::get<std::string*>(field));
+  if (auto* const* list = std::get_if<std::vector<double>*>(&field))
+    return fmt::format("{}", fmt::join(**list, ","));
+  return *std::get<std::string*>(field);
 }
 
-std::string comment_of(const Setting& setting, Config& config, Config& fresh) {
-  std::string text = setting.help;
-  if (!setting.unit.empty()) text += fmt::format(" [{}]", setting.unit);
-  if (is_number(setting.field(config))) {
-    text += fmt::format("; {} to {}", setting.min, setting.max);
-  } else if (!setting.words.empty()) {
-    text += fmt::format("; {}", fmt::join(setting.words, ", "));
-  }
-  const std::string usual = value_text(setting, fresh);
-  return value_text(setting, config) == usual ? text : text + "; default " + usual;
-}
-
-}  // namespace
+}  // namespace detail
 
 Config default_config(const Species& species) {
   Config config;
@@ -161,74 +151,48 @@ Config default_config(const Species& species) {
 }
 
 void set(Config& config, std::string_view key, std::string_view value) {
-  const Setting& setting = find_setting(key);
+  const Setting& setting = detail::find_setting(key);
   const Setting::Field field = setting.field(config);
   const std::string text(value);
-  if (std::string* const* word = std::get_if<std::string*>(&field)) return assign_word(setting, **word, text);
-  if (bool* const* flag = std::get_if<bool*>(&field)) {
+  if (std::string* const* word = std::get_if<std::string*>(&field)) {
+    detail::assign_word(setting, **word, text);
+  } else if (auto* const* list = std::get_if<std::vector<double>*>(&field)) {
+    detail::assign_list(setting, **list, numbers_in(setting, text));
+  } else if (bool* const* flag = std::get_if<bool*>(&field)) {
     if (text != "true" && text != "false") fail(fmt::format("{} must be true or false, not '{}'", key, text));
     **flag = text == "true";
-    return;
-  }
-  char* end = nullptr;
-  const double number = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0') fail(fmt::format("{}, not '{}'", allowed(setting), text));
-  assign_number(setting, field, number);
-}
-
-void check_toml_keys(std::string_view toml, std::string_view source) {
-  constexpr std::ptrdiff_t kMostDots = 64;  // of a line with its comment; our keys have two at most
-  for (int line = 1; !toml.empty(); ++line) {
-    const std::string_view text = toml.substr(0, toml.find('\n'));
-    toml.remove_prefix(std::min(text.size() + 1, toml.size()));
-    const bool comment =
-        text.substr(std::min(text.find_first_not_of(" \t"), text.size())).substr(0, 1) == "#";
-    if (!comment && std::count(text.begin(), text.end(), '.') > kMostDots)
-      fail(fmt::format("{}, line {}: it has more than {} dots, as no setting has", source, line, kMostDots));
+  } else {
+    detail::assign_number(setting, field, number_in(setting, text));
   }
 }
 
-void apply_toml(Config& config, std::string_view toml, std::string_view source) {
-  apply_table(config, parse(toml, source), "", source);
+void add_change(Config& config, std::int64_t iteration, std::string_view key, std::string_view value) {
+  constexpr std::int64_t kLastIteration = 1000000;
+  const Setting& setting = detail::find_setting(key);
+  if (!setting.during_run)
+    fail(
+        fmt::format("{} cannot change in a run; `wilt simulate --print-config --json` says which settings "
+                    "can (during_run)",
+                    key));
+  if (iteration < 0 || iteration > kLastIteration)
+    fail(fmt::format("a change comes after iteration 0 to {}, not {}", kLastIteration, iteration));
+  Config changed = config;
+  set(changed, key, value);
+  const Change change{iteration, setting.key, detail::value_text(setting, changed)};
+  auto& changes = config.changes;
+  const auto place = std::lower_bound(changes.begin(), changes.end(), change, comes_before);
+  if (place != changes.end() && !comes_before(change, *place))
+    *place = change;
+  else
+    changes.insert(place, change);
 }
 
-Config resolve_config(const std::string& preset, std::string_view toml, std::string_view source,
-                      const std::vector<Assignment>& assignments) {
-  std::string named = parse(toml, source)["species"].value_or(preset);
-  for (const Assignment& assignment : assignments) {
-    if (assignment.key == "species") named = assignment.value;
+Config config_after(const Config& config, std::int64_t iteration) {
+  Config after = config;
+  for (const Change& change : config.changes) {
+    if (change.iteration <= iteration) set(after, change.key, change.value);
   }
-  Config config = default_config(species("generic"));
-  set(config, "species", named);  // refuses an unknown one as a setting
-  config = default_config(species(named));
-  apply_toml(config, toml, source);
-  for (const Assignment& assignment : assignments) set(config, assignment.key, assignment.value);
-  return config;
-}
-
-std::string to_toml(const Config& config, bool commented) {
-  Config copy = config, fresh = default_config(species(config.species));
-  std::string text, section;
-  for (const Setting& setting : settings()) {
-    const std::size_t dot = setting.key.find('.');
-    const std::string table = dot == std::string::npos ? "" : setting.key.substr(0, dot);
-    if (table != section) {
-      text += fmt::format("\n[{}]\n", table);
-      section = table;
-    }
-    const std::string name = dot == std::string::npos ? setting.key : setting.key.substr(dot + 1);
-    const std::string line = fmt::format("{} = {}", name, value_text(setting, copy));
-    text += commented ? fmt::format("{:<32}# {}\n", line, comment_of(setting, copy, fresh)) : line + "\n";
-  }
-  return text;
-}
-
-std::string to_json(const Config& config) {
-  Config copy = config;
-  nlohmann::ordered_json json;
-  for (const Setting& setting : settings())
-    std::visit([&](const auto* value) { json[setting.key] = *value; }, setting.field(copy));
-  return json.dump();
+  return after;
 }
 
 VenationOptions venation_options(const Config& config) {

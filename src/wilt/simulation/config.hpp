@@ -12,6 +12,12 @@
 
 namespace wilt {
 
+/// What a setting becomes during a run.
+struct Change {
+  std::int64_t iteration = 0;  ///< the steps after it have the new value
+  std::string key, value;      ///< as `set` takes them
+};
+
 /// The resolved configuration of a run. Working units: the leaf's length is 8, masses and forces as in the
 /// paper.
 ///
@@ -42,6 +48,8 @@ struct Config {
   } mass;
   struct {
     double temperature_c = 20.0, humidity = 0.5, loss_rate = 0.02, diffusion = 0.1, dryness_scale = 0.3;
+    std::vector<double> dry_region;
+    double dry_factor = 3.0;
   } water;
   struct {
     double cell_constant = 2e-4, poisson_ratio = 0.499;
@@ -54,6 +62,7 @@ struct Config {
   } swelling;
   struct {
     std::string variant = "a";
+    std::vector<double> forces;
     double range = 1.0, growth = 0.3, scale = 1.0;
   } external;
   struct {
@@ -82,6 +91,8 @@ struct Config {
     double tolerance = 1e-8;
     std::int64_t max_newton = 30, max_halvings = 8;
   } solver;
+
+  std::vector<Change> changes;  ///< by iteration, then key; add_change() puts them in
 };
 
 /// The model's defaults with a species' Table 1 and calibrations.
@@ -89,25 +100,40 @@ Config default_config(const Species& species);
 
 /// One row of the table of settings.
 struct Setting {
-  using Field = std::variant<double*, std::int64_t*, bool*, std::string*>;
+  using Field = std::variant<double*, std::int64_t*, bool*, std::string*, std::vector<double>*>;
   std::string key;   ///< dotted name: "water.temperature_c"
   std::string unit;  ///< "" when it is a pure number
   std::string help;
-  double min = 0.0, max = 0.0;     ///< numbers: the allowed range, inclusive
+  double min = 0.0, max = 0.0;     ///< numbers: the allowed range, inclusive, of each in a list
   std::vector<std::string> words;  ///< words: what is allowed
   Field (*field)(Config&);
+  bool during_run = false;  ///< whether it may change in a run
+  int multiple = 1;         ///< lists: what the count of numbers is a multiple of,
+  int fewest = 0;           ///< and its least unless the list is empty
+
+  bool has_range() const { return min < max; }  ///< numbers and lists
 };
 const std::vector<Setting>& settings();
 
-/// Sets one key from text, as `--set key=value` gives it. Throws Error{configuration}: an unknown key with
-/// the nearest one, a value of the wrong kind or out of range with what is allowed.
+/// Sets one key from text, as `--set key=value` gives it; a list as numbers with commas between, or nothing.
+/// Throws Error{configuration}: an unknown key with the nearest one, a value of the wrong kind or out of
+/// range with what is allowed.
 void set(Config& config, std::string_view key, std::string_view value);
+
+/// Has a setting change in the run: the steps after `iteration`, 0 to 1e6, have the new value. It takes the
+/// place of another change of the same setting after the same iteration. Same errors as `set`, and for
+/// settings that may not change (Setting::during_run); `config` is then as it was.
+void add_change(Config& config, std::int64_t iteration, std::string_view key, std::string_view value);
+
+/// The settings of the step after `iteration`: all changes up to it made.
+Config config_after(const Config& config, std::int64_t iteration);
 
 /// Throws Error{configuration} with source and line for keys with more parts than any has: the library that
 /// reads TOML calls itself for each. To be called before it.
 void check_toml_keys(std::string_view toml, std::string_view source);
 
-/// Applies a TOML document; `source` names it in messages. Same errors as `set`.
+/// Applies a TOML document; `source` names it in messages. Sections [[change]] hold `iteration` and the
+/// settings that change after it. Same errors as `set` and `add_change`.
 void apply_toml(Config& config, std::string_view toml, std::string_view source);
 
 struct Assignment {
@@ -122,7 +148,11 @@ Config resolve_config(const std::string& preset, std::string_view toml, std::str
 /// As TOML that apply_toml takes back, with unit and range in comments when `commented`.
 std::string to_toml(const Config& config, bool commented);
 
-/// As a flat JSON object {"key": value, ...} in the order of the table.
+/// The same with only the species and what differs from its defaults.
+std::string unusual_toml(const Config& config);
+
+/// As a JSON object {"key": value, ...} in the order of the table, then, if there are any, the changes:
+/// "change": [{"iteration": n, "key": value, ...}, ...].
 std::string to_json(const Config& config);
 
 VenationOptions venation_options(const Config& config);

@@ -20,6 +20,8 @@ struct ForceBreakdown {
   Points3 elastic, damping, swelling, external;
 };
 
+struct ModelInput;
+
 /// One way for a leaf to wither. The stepper calls `advance` and then steps `system` by the same dt; whatever
 /// a model needs (more layers, other energies, driven veins) stays behind this interface.
 class DeformationModel {
@@ -29,6 +31,9 @@ class DeformationModel {
   /// Moves water and pressure from iteration n to n+1 and sets masses and forces for the step between, which
   /// starts at positions `x` (#V x 3).
   virtual void advance(double dt, const Points3& x) = 0;
+
+  /// Has other settings water.* and pressure.* from here on; all else of `input` is what this was made from.
+  virtual void change_water(const ModelInput& input) = 0;
 
   virtual System& system() = 0;
 

@@ -39,19 +39,27 @@ PressureOptions pressure_options(const Config& config, WaterForm form) {
 
 }  // namespace
 
-LeafWater::LeafWater(const Config& config, WaterForm form, const Eigen::VectorXd& mass, double loss,
-                     double scale, const Edges& edges, const Eigen::VectorXd& rest_lengths)
-    : pressure_options_(pressure_options(config, form)),
+LeafWater::LeafWater(const Config& config, WaterForm form, const Eigen::VectorXd& mass,
+                     const Eigen::VectorXd& loss, double scale, const Edges& edges,
+                     const Eigen::VectorXd& rest_lengths)
+    : form_(form),
       dryness_scale_(config.water.dryness_scale),
       permeation_(static_cast<int>(mass.size()), edges, rest_lengths,
                   permeation_options(config, scale, config.mass.water_fraction * mass.minCoeff())),
       dry_((1.0 - config.mass.water_fraction) * mass),
       water_(config.mass.water_fraction * mass),
       first_water_(water_),
-      loss_(Eigen::VectorXd::Constant(mass.size(), loss)),
-      pressure_(Eigen::VectorXd::Zero(mass.size())),
-      printed_permeation_(form == WaterForm::printed &&
-                          permeation_.printed_number(dry_, water_, config.dt) <= kLargestNumber) {}
+      pressure_(Eigen::VectorXd::Zero(mass.size())) {
+  change(config, loss);
+}
+
+void LeafWater::change(const Config& config, const Eigen::VectorXd& loss) {
+  pressure_options_ = pressure_options(config, form_);
+  permeation_.set_lambda(config.water.diffusion);
+  loss_ = loss;
+  printed_permeation_ = form_ == WaterForm::printed &&
+                        permeation_.printed_number(dry_, first_water_, config.dt) <= kLargestNumber;
+}
 
 void LeafWater::advance(double dt) {
   update_pressure(pressure_, water_, loss_, dt, pressure_options_);

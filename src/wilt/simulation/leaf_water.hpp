@@ -18,9 +18,12 @@ enum class WaterForm { printed, conservative };
 
 class LeafWater {
  public:
-  /// `mass` #V, m at the start; `loss` per cell and time unit; `scale` is what the masses were scaled by.
-  LeafWater(const Config& config, WaterForm form, const Eigen::VectorXd& mass, double loss, double scale,
-            const Edges& edges, const Eigen::VectorXd& rest_lengths);
+  /// `mass` #V, m at the start; `loss` #V per time unit; `scale` is what the masses were scaled by.
+  LeafWater(const Config& config, WaterForm form, const Eigen::VectorXd& mass, const Eigen::VectorXd& loss,
+            double scale, const Edges& edges, const Eigen::VectorXd& rest_lengths);
+
+  /// Has other settings water.* and pressure.* from here on, and another loss.
+  void change(const Config& config, const Eigen::VectorXd& loss);
 
   /// No cell falls below 1e-3 times `scale`, or a tenth of the driest cell's first water where that is less.
   /// Throws Error{simulation} when a mass is not finite, and, in the conservative form, when the solver stops
@@ -37,11 +40,12 @@ class LeafWater {
   Eigen::VectorXd dryness() const;                              ///< #V, 0 to 1
 
  private:
+  WaterForm form_;
   PressureOptions pressure_options_;
   double dryness_scale_;
   Permeation permeation_;
   Eigen::VectorXd dry_, water_, first_water_, loss_, pressure_;  // pressure is p - p_out
-  bool printed_permeation_;
+  bool printed_permeation_ = false;
 };
 
 }  // namespace wilt

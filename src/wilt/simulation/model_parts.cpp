@@ -1,11 +1,16 @@
 #include "wilt/simulation/model_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <queue>
 
+#include "wilt/core/error.hpp"
 #include "wilt/core/parallel.hpp"
+#include "wilt/leaf/curves.hpp"
 #include "wilt/mesh/geometry.hpp"
+#include "wilt/simulation/simulate.hpp"
 
 namespace wilt {
 namespace {
@@ -41,6 +46,21 @@ std::vector<int> nearest_vein_cell(const SurfaceMesh& mesh, const Points3& posit
   return nearest;
 }
 
+// Those of external.forces, or else of external.variant, #tips x 3.
+Points3 first_tip_forces(const ModelInput& input) {
+  const auto& external = input.config.external;
+  const std::size_t tips = input.venation.tips.size();
+  if (external.forces.empty()) return initial_tip_forces(static_cast<int>(tips), external.variant);
+  if (external.forces.size() != 3 * tips)
+    throw Error(
+        ErrorCode::configuration,
+        fmt::format("external.forces holds {} numbers, but the leaf has {} tips: give {}, x, y and z of "
+                    "each, or none",
+                    external.forces.size(), tips, 3 * tips));
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  return Eigen::Map<const Rows>(external.forces.data(), static_cast<Eigen::Index>(tips), 3);
+}
+
 }  // namespace
 
 Eigen::VectorXd rest_lengths(const SurfaceMesh& mesh, const Points3& rest) {
@@ -56,10 +76,26 @@ std::vector<char> pinned_vertices(const ModelInput& input) {
   return pinned;
 }
 
+Eigen::VectorXd water_loss(const ModelInput& input, double rate) {
+  const auto& water = input.config.water;
+  const Eigen::VectorXd even = Eigen::VectorXd::Constant(input.rest.rows(), rate);
+  if (water.dry_region.empty()) return even;
+  detail::Polyline region;
+  for (std::size_t k = 0; k < water.dry_region.size(); k += 2)
+    region.emplace_back(water.dry_region[k], water.dry_region[k + 1]);
+  Eigen::VectorXd loss = even;
+  parallel_for(static_cast<int>(loss.size()), 1024, [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      const Vec2 place = input.rest.row(v).head<2>().transpose() / kWorkingLength;
+      if (detail::is_inside(region, place)) loss[v] *= water.dry_factor;
+    }
+  });
+  return loss;
+}
+
 ExternalForce make_external_force(const ModelInput& input, double factor) {
   const Config& config = input.config;
-  const Points3 first =
-      initial_tip_forces(static_cast<int>(input.venation.tips.size()), config.external.variant);
+  const Points3 first = first_tip_forces(input);
   return {config.external.scale * factor * first, input.scale * input.venation.tip_distance,
           config.external.range, config.external.growth};
 }

@@ -16,7 +16,11 @@ Eigen::VectorXd rest_lengths(const SurfaceMesh& mesh, const Points3& rest);
 /// The petiole and its one-ring as flags, #V; none when `config.pin` is "free".
 std::vector<char> pinned_vertices(const ModelInput& input);
 
-/// The forces at the tips, in working units, times `factor`.
+/// How fast each vertex loses water, #V: `rate`, and water.dry_factor times that within water.dry_region.
+Eigen::VectorXd water_loss(const ModelInput& input, double rate);
+
+/// The forces at the tips, in working units, times `factor`. Throws Error{configuration} when external.forces
+/// are not as many as the tips.
 ExternalForce make_external_force(const ModelInput& input, double factor);
 
 /// For every vertex the distance (metres) of the farthest vertex that has the same nearest vein cell: gd_max

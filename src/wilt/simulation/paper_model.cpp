@@ -40,8 +40,9 @@ PaperModel::PaperModel(const ModelInput& input)
     : mesh_(input.leaf.mesh),
       swelling_(input.config.swelling.coefficient),
       stalk_(input.scale * input.leaf.stalk.centreline),
-      water_(input.config, WaterForm::printed, printed_mass(input), input.config.water.loss_rate, 1.0,
-             mesh_.edge_matrix(), rest_lengths(mesh_, input.rest)),
+      water_(input.config, WaterForm::printed, printed_mass(input),
+             water_loss(input, input.config.water.loss_rate), 1.0, mesh_.edge_matrix(),
+             rest_lengths(mesh_, input.rest)),
       external_(make_external_force(input, 1.0)),
       system_(water_.mass(), pinned_vertices(input)) {
   const Edges edges = mesh_.edge_matrix();
@@ -68,6 +69,10 @@ void PaperModel::advance(double dt, const Points3& x) {
   swelling_force_->set_coefficients(
       swelling_coefficients(mesh_, face_areas(mesh_, x), water_.pressure_drop(), swelling_));
   external_force_->set_values(external_.on_vertices());
+}
+
+void PaperModel::change_water(const ModelInput& input) {
+  water_.change(input.config, water_loss(input, input.config.water.loss_rate));
 }
 
 void PaperModel::exchange_state(StateArchive& archive) {

@@ -16,6 +16,7 @@ class PaperModel : public DeformationModel {
   explicit PaperModel(const ModelInput& input);
 
   void advance(double dt, const Points3& x) override;
+  void change_water(const ModelInput& input) override;
   System& system() override { return system_; }
   void exchange_state(StateArchive& archive) override;
   std::string note() const override;

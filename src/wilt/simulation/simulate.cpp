@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "wilt/core/check.hpp"
@@ -36,6 +37,11 @@ MidpointOptions midpoint_options(const Config& config) {
   return options;
 }
 
+// Whether a setting means nothing to the mechanics.
+bool is_of_water(const std::string& key) {
+  return key.rfind("water.", 0) == 0 || key.rfind("pressure.", 0) == 0;
+}
+
 std::vector<VertexId> tip_vertices(const Venation& venation) {
   std::vector<VertexId> tips;
   for (const Tip& tip : venation.tips) tips.push_back(tip.vertex);
@@ -53,23 +59,22 @@ class Simulation::Run {
         config_(config),
         scale_(kWorkingLength / leaf_length(leaf)),
         rest_(scale_ * leaf.positions),
-        model_(make_model({leaf, venation, config, scale_, rest_})),
         regions_(leaf_regions(leaf, venation)),
         metrics_(leaf.mesh, rest_, leaf.petiole, tip_vertices(venation)),
         ring_(leaf.mesh.one_ring(leaf.petiole)),
-        integrator_(model_->system(), midpoint_options(config)),
-        watchdog_(config.dt, config.solver.tolerance),
         frames_(frame_iterations(config)) {
     ring_.push_back(leaf.petiole);
     state_.positions = rest_;
     state_.complete(static_cast<int>(rest_.rows()));
-    result_.note = model_->note();
+    build(config_);
     record();
   }
 
   int iteration() const { return iteration_; }
   int last_iteration() const { return static_cast<int>(config_.iterations); }
   bool ended() const { return !result_.completed || iteration_ >= last_iteration(); }
+  const Config& config() const { return config_; }
+  void change(std::string_view key, std::string_view value) { add_change(config_, iteration_, key, value); }
   const SimulationResult& result() const { return result_; }
   Frame frame() const { return frame_of(in_petiole_frame()); }
   FrameMetrics metrics() const { return metrics_.measure(in_petiole_frame(), iteration_); }
@@ -80,18 +85,19 @@ class Simulation::Run {
   void step() {
     const int iteration = iteration_ + 1;
     try {
+      take_changes();
       model_->advance(config_.dt, state_.positions);
     } catch (const Error& error) {  // whatever it is called: the settings were good enough for the first step
       return stop(iteration, error.what());
     }
-    const StepReport report = integrator_.step(state_, config_.dt);
+    const StepReport report = integrator_->step(state_, config_.dt);
     result_.steps.push_back(row_of(report, iteration));
     if (!report.converged) return stop(iteration, report.reason);
     iteration_ = iteration;
     record();
     const std::string complaint =
-        watchdog_.complaint(result_.steps.back(), metrics_.max_strain(state_.positions), state_.velocities,
-                            model_->system().masses());
+        watchdog_->complaint(result_.steps.back(), metrics_.max_strain(state_.positions), state_.velocities,
+                             model_->system().masses());
     if (!complaint.empty()) stop(iteration, complaint);
   }
 
@@ -105,6 +111,7 @@ class Simulation::Run {
 
   void restore(const Checkpoint& checkpoint) {
     require_same_run(checkpoint, to_json(config_), fingerprint());
+    if (!config_.changes.empty()) build(config_after(config_, checkpoint.iteration - 1));
     StateArchive archive = StateArchive::restoring(checkpoint.arrays);
     exchange(archive);
     iteration_ = checkpoint.iteration;
@@ -125,6 +132,50 @@ class Simulation::Run {
   SimulationResult take_result() { return std::move(result_); }
 
  private:
+  ModelInput input(const Config& config) const { return {leaf_, venation_, config, scale_, rest_}; }
+
+  // The model as these settings have it, at rest, and what steps and watches it.
+  void build(const Config& config) {
+    auto model = make_model(input(config));
+    integrator_.emplace(model->system(), midpoint_options(config));
+    watchdog_.emplace(config.dt, config.solver.tolerance);
+    model_ = std::move(model);
+    result_.note = note();
+  }
+
+  // What the user should know.
+  std::string note() const {
+    std::string text = model_->note();
+    if (config_.changes.empty() || config_.changes.back().iteration < last_iteration()) return text;
+    const Change& late = config_.changes.back();
+    return fmt::format("{}{}the change of {} after iteration {} never comes: the run has {} iterations", text,
+                       text.empty() ? "" : "; ", late.key, late.iteration, last_iteration());
+  }
+
+  // Before a step. Settings of the water leave the mechanics as they are, matrices and all. Else: a model is
+  // a function of its settings and of the state that it exchanges, so one of the new settings goes on with
+  // the state of the old.
+  void take_changes() {
+    bool due = false, only_water = true;
+    for (const Change& change : config_.changes) {
+      if (change.iteration != iteration_) continue;
+      due = true;
+      only_water = only_water && is_of_water(change.key);
+    }
+    if (!due) return;
+    const Config now = config_after(config_, iteration_);
+    if (only_water) {
+      model_->change_water(input(now));
+      result_.note = note();
+      return;
+    }
+    StateArrays state;
+    StateArchive left = StateArchive::saving(state), taken = StateArchive::restoring(state);
+    model_->exchange_state(left);
+    build(now);
+    model_->exchange_state(taken);
+  }
+
   StepRow row_of(const StepReport& report, int iteration) const {
     const System& system = model_->system();
     StepRow row{iteration,
@@ -202,12 +253,12 @@ class Simulation::Run {
   Config config_;
   double scale_;  // working units per metre
   Points3 rest_;
-  std::unique_ptr<DeformationModel> model_;
+  std::unique_ptr<DeformationModel> model_;  // of the settings of the last step
   VertexData<Region> regions_;
   LeafMetrics metrics_;
   std::vector<VertexId> ring_;
-  ImplicitMidpoint integrator_;
-  Watchdog watchdog_;
+  std::optional<ImplicitMidpoint> integrator_;
+  std::optional<Watchdog> watchdog_;
   std::vector<int> frames_;  // the iterations at which frames are taken, ascending
   MotionState state_;
   int iteration_ = 0;
@@ -230,6 +281,14 @@ int Simulation::last_iteration() const {
 
 bool Simulation::ended() const {
   return run_->ended();
+}
+
+const Config& Simulation::config() const {
+  return run_->config();
+}
+
+void Simulation::change(std::string_view key, std::string_view value) {
+  run_->change(key, value);
 }
 
 void Simulation::step() {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <string_view>
 
 #include "wilt/core/monitor.hpp"
 #include "wilt/simulation/checkpoint.hpp"
@@ -25,6 +26,8 @@ class Simulation {
 
   int iteration() const;       ///< the last one done
   int last_iteration() const;  ///< `config.iterations`
+  /// The run's, with all changes.
+  const Config& config() const;
   /// All iterations are done, or the run has stopped: SimulationResult::stop_reason.
   bool ended() const;
 
@@ -32,6 +35,11 @@ class Simulation {
   /// (watchdog.hpp) finds that no leaf does that, the run stops, keeps what was computed and says why.
   /// Nothing happens once it has ended.
   void step();
+
+  /// Has a setting change now: the next steps have the new value, and config() says so. Costs little: what
+  /// follows from settings is made anew in the next step, once for all changes. Throws Error{configuration}
+  /// as add_change() does; nothing has changed then.
+  void change(std::string_view key, std::string_view value);
 
   /// What has been recorded until now.
   const SimulationResult& result() const;

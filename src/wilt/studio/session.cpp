@@ -73,11 +73,10 @@ StudioSession::StudioSession(Leaf leaf, const VeinEdits& edits, std::string pres
     : leaf_(std::move(leaf)),
       preset_(std::move(preset)),
       given_(std::move(given)),
-      config_(resolved(toml)),
-      venation_(found_venation(leaf_, edits, config_)),
-      simulation_(std::make_unique<Simulation>(leaf_, venation_, config_)),
+      venation_(found_venation(leaf_, edits, resolved(toml))),
+      simulation_(std::make_unique<Simulation>(leaf_, venation_, resolved(toml))),
       first_water_(simulation_->model().water().sum()),
-      paint_(painted(leaf_, venation_, config_, 0)) {}
+      paint_(painted(leaf_, venation_, config(), 0)) {}
 
 StudioSession::~StudioSession() = default;
 
@@ -91,24 +90,24 @@ void StudioSession::start(const std::string& toml) {
 
 void StudioSession::begin(const Config& config) {
   simulation_ = std::make_unique<Simulation>(leaf_, venation_, config);
-  config_ = config;
   first_water_ = simulation_->model().water().sum();
-}
-
-void StudioSession::change(const std::string& key, const std::string&) {
-  throw Error(ErrorCode::configuration, fmt::format("{} cannot be changed during a run", key));
 }
 
 void StudioSession::rewind(int iteration) {
   if (iteration < 0 || iteration > simulation_->iteration())
     throw Error(ErrorCode::configuration, fmt::format("iteration {} must be from 0 to {}, the last one done",
                                                       iteration, simulation_->iteration()));
-  begin(config_);
+  Config kept = config();
+  kept.changes.erase(
+      std::remove_if(kept.changes.begin(), kept.changes.end(),
+                     [iteration](const Change& change) { return change.iteration > iteration; }),
+      kept.changes.end());
+  begin(kept);
   while (simulation_->iteration() < iteration && !simulation_->ended()) simulation_->step();
 }
 
 void StudioSession::paint_texture(int size) {
-  paint_ = painted(leaf_, venation_, config_, size);
+  paint_ = painted(leaf_, venation_, config(), size);
 }
 
 std::string StudioSession::file(const std::string& kind) const {

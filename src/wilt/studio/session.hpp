@@ -39,7 +39,9 @@ class StudioSession {
   const Leaf& leaf() const { return leaf_; }
   const Venation& venation() const { return venation_; }
   const Simulation& simulation() const { return *simulation_; }
-  const Config& config() const { return config_; }
+  const Config& config() const { return simulation_->config(); }
+  /// The settings of the next step: config() with all changes made that have come.
+  Config settings_now() const { return config_after(config(), simulation_->iteration()); }
   /// The leaf's colours, over its texture once that has been painted.
   const LeafPaint& paint() const { return paint_; }
   double first_water() const { return first_water_; }  ///< of the whole leaf at rest, working units
@@ -48,7 +50,7 @@ class StudioSession {
   void start(const std::string& toml);
   void step() { simulation_->step(); }
   /// As Simulation::change does.
-  void change(const std::string& key, const std::string& value);
+  void change(const std::string& key, const std::string& value) { simulation_->change(key, value); }
   /// The state after `iteration`, 0 to the last one done; later changes are forgotten.
   void rewind(int iteration);
   /// Draws the blade's texture, `size` x `size` texels; 0: none. The run's own files keep `texture.size`.
@@ -64,7 +66,6 @@ class StudioSession {
   Leaf leaf_;
   std::string preset_;
   std::vector<Assignment> given_;
-  Config config_;
   Venation venation_;
   std::unique_ptr<Simulation> simulation_;
   double first_water_;

@@ -1,7 +1,5 @@
 #include "wilt/studio/settings_json.hpp"
 
-#include <fmt/format.h>
-
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
@@ -48,20 +46,9 @@ std::string settings_json(const Config& config) {
                     {"words", setting.key == "species" ? species_names() : setting.words},
                     {"value", value_of(setting, now)},
                     {"usual", value_of(setting, usual)},
-                    {"duringRun", false}});
+                    {"duringRun", setting.during_run}});
   }
   return list.dump();
-}
-
-std::string unusual_toml(const Config& config) {
-  Config now = config, usual = default_config(species(config.species));
-  std::string toml = fmt::format("species = \"{}\"\n", config.species);
-  for (const Setting& setting : settings()) {
-    const Json value = value_of(setting, now);
-    if (setting.key != "species" && value != value_of(setting, usual))
-      toml += fmt::format("{} = {}\n", setting.key, value.dump());
-  }
-  return toml;
 }
 
 }  // namespace wilt

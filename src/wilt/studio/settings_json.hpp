@@ -12,7 +12,4 @@ namespace wilt {
 /// species.
 std::string settings_json(const Config& config);
 
-/// TOML with what differs from the species' defaults only, and the species; apply_toml() takes it back.
-std::string unusual_toml(const Config& config);
-
 }  // namespace wilt

@@ -191,6 +191,13 @@ Permeation::~Permeation() = default;
 Permeation::Permeation(Permeation&&) noexcept = default;
 Permeation& Permeation::operator=(Permeation&&) noexcept = default;
 
+void Permeation::set_lambda(double lambda) {
+  PermeationOptions options = impl_->options;
+  options.lambda = lambda;
+  options.validate();
+  impl_->options = options;
+}
+
 WaterReport Permeation::step(const Eigen::VectorXd& dry, Eigen::VectorXd& water, const Eigen::VectorXd& loss,
                              double dt) {
   Impl& p = *impl_;

@@ -47,6 +47,9 @@ class Permeation {
   Permeation(Permeation&&) noexcept;
   Permeation& operator=(Permeation&&) noexcept;
 
+  /// Throws Error{configuration} below 0.
+  void set_lambda(double lambda);
+
   /// One step of `dt` > 0. `dry` #V, > 0; `water` #V, >= 0, is replaced; `loss` #V, >= 0, mass per time.
   /// Throws Error{simulation} when a mass is not finite or dry <= 0; `water` is then untouched.
   WaterReport step(const Eigen::VectorXd& dry, Eigen::VectorXd& water, const Eigen::VectorXd& loss,

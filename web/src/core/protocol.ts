@@ -13,7 +13,7 @@ export type LeafSource = {
   | { kind: "species"; name: string }
   /** `outline`: the text of wilt's .json outline file. */
   | { kind: "outline"; name: string; outline: string }
-  /** `elements`: an SVG's, as web/src/import/drawing.ts lists them; its `nth` largest leaf, from 1. */
+  /** `elements`: those of an SVG, as ../import/drawing.ts lists them; the `nth` largest leaf, from 1. */
   | { kind: "drawing"; name: string; elements: string; nth: number }
   /** As three.js's loaders give it: a file's own coordinates, Y up; texture coordinates with glTF's origin, top left. */
   | { kind: "mesh"; name: string; positions: Float32Array; faces: Uint32Array; uv?: Float32Array }
