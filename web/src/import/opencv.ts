@@ -128,6 +128,20 @@ export type Rgb = Picture<Uint8Array>;
 export type Mask = Picture<Uint8Array>;
 export type Plane = Picture<Float32Array>;
 
+/** 255 where `test` holds. */
+export function maskOf({ width, height, data }: Plane, test: (value: number) => boolean): Mask {
+  const mask = new Uint8Array(data.length);
+  for (let i = 0; i < mask.length; ++i) mask[i] = test(data[i]) ? 255 : 0;
+  return { width, height, data: mask };
+}
+
+/** `valueAt` of every place. */
+export function numbers(length: number, valueAt: (i: number) => number): Float32Array {
+  const result = new Float32Array(length); // Float32Array.from takes ten times as long
+  for (let i = 0; i < length; ++i) result[i] = valueAt(i);
+  return result;
+}
+
 /** Mats that live as long as a call of withMats. */
 export class Mats {
   readonly #kept: { delete(): void }[] = [];

@@ -7,7 +7,9 @@ import {
   type Rgb,
   bytesOf,
   labOf,
+  maskOf,
   morphed,
+  numbers,
   numbersOf,
   resized,
   withMats,
@@ -126,10 +128,6 @@ function differenceFrom(colours: Plane, cubic: Cubic): Plane {
   return { width, height, data: result };
 }
 
-function maskOf(plane: Plane, test: (value: number) => boolean): Mask {
-  return { ...plane, data: Uint8Array.from(plane.data, (value) => (test(value) ? 255 : 0)) };
-}
-
 function fitBackground(cv: OpenCv, rgb: Rgb): Cubic {
   const reduction = Math.max(1, Math.max(rgb.width, rgb.height) / MODEL_SIDE);
   const size = (side: number) => Math.round(side / reduction);
@@ -178,8 +176,8 @@ function nearbyColour(
   const sure = maskOf(differences, (difference) => difference > 1.25 * threshold);
   const inner = morphed(cv, "erode", sure, cv.MORPH_ELLIPSE, 3).data;
   // Needles lose everything to erosion: they count with what they have, faintly.
-  const weight = Float32Array.from(sure.data, (value, i) => (inner[i] ? 1 : value ? 0.02 : 0));
-  const sum = Float32Array.from(colours.data, (value, i) => weight[Math.floor(i / 3)] * value);
+  const weight = numbers(inner.length, (i) => (inner[i] ? 1 : sure.data[i] ? 0.02 : 0));
+  const sum = numbers(colours.data.length, (i) => weight[Math.floor(i / 3)] * colours.data[i]);
   return {
     sum: blurred(cv, { ...colours, data: sum }, 3),
     weight: blurred(cv, { ...colours, data: weight }, 1),
@@ -199,7 +197,7 @@ function edgeBand(cv: OpenCv, above: Mask): Uint8Array {
 }
 
 export function coverOfAlpha(alpha: Mask): Cover {
-  return { share: { ...alpha, data: Float32Array.from(alpha.data, (value) => value / 255) }, threshold: 0 };
+  return { share: { ...alpha, data: numbers(alpha.data.length, (i) => alpha.data[i] / 255) }, threshold: 0 };
 }
 
 /** `threshold`: by default Otsu's. Throws when there is no plain background. */
@@ -211,7 +209,7 @@ export function coverOfColours(cv: OpenCv, rgb: Rgb, asked?: number): Cover {
   const above = maskOf(differences, (difference) => difference > threshold);
   const band = edgeBand(cv, above);
   const nearby = nearbyColour(cv, colours, differences, threshold);
-  const share = Float32Array.from(above.data, (value) => (value ? 1 : 0));
+  const share = numbers(above.data.length, (i) => (above.data[i] ? 1 : 0));
   const terms = new Float64Array(TERMS);
   for (let i = 0; i < share.length; ++i) {
     const weight = nearby.weight.data[i];

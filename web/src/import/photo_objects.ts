@@ -1,6 +1,6 @@
 // The things in a photo, and which of them are leaves: the same steps as src/wilt/import/photo_objects.cpp.
 
-import { type Mask, type Mat, type OpenCv, type Plane, morphed, withMats } from "./opencv";
+import { type Mask, type Mat, type OpenCv, type Plane, maskOf, morphed, withMats } from "./opencv";
 
 const SMALLEST = 1 / 2000; // of the photo
 const RECTANGLE = 0.92; // area over that of the smallest rectangle around it
@@ -100,7 +100,7 @@ function objectOf(cv: OpenCv, share: Plane, labels: Int32Array, label: number, t
 
 function connectedObjects(cv: OpenCv, share: Plane): PhotoObject[] {
   return withMats(cv, (mats) => {
-    const covered = { ...share, data: Uint8Array.from(share.data, (value) => (value >= 0.5 ? 255 : 0)) };
+    const covered = maskOf(share, (value) => value >= 0.5);
     const [labels, statistics] = [mats.empty(), mats.empty()];
     const count = cv.connectedComponentsWithStats(mats.of(covered), labels, statistics, mats.empty(), 8);
     const label = labels.data32S.slice();

@@ -7,6 +7,7 @@ import {
   type Plane,
   type Rgb,
   labOf,
+  maskOf,
   morphed,
   numbersOf,
   resized,
@@ -176,8 +177,7 @@ export function findVeinFork(cv: OpenCv, rgb: Rgb, object: PhotoObject): VeinFor
   if (reduction < 0.5 || Math.min(size.width, size.height) < 8) return undefined;
   // With its colours carried on beyond it the leaf's margin is no line.
   const lab = labOf(cv, bledColours(cv, rgb, object), size);
-  const share = resized(cv, object.share, 1, size.width, size.height).data;
-  const inside = { ...size, data: Uint8Array.from(share, (value) => (value > 0.5 ? 255 : 0)) };
+  const inside = maskOf(resized(cv, object.share, 1, size.width, size.height), (share) => share > 0.5);
   const ridges = findRidges(cv, lab, inside);
   const rays = Array.from({ length: DIRECTIONS }, (_, k) => rayStrength(cv, ridges, angleOf(k)));
   const { fan, pixel } = bestFan(rays, morphed(cv, "dilate", inside, cv.MORPH_ELLIPSE, 9).data);

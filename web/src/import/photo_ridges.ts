@@ -1,6 +1,6 @@
 // Lines in a photo, veins among them: the same steps as src/wilt/import/photo_ridges.cpp.
 
-import { type Mask, type Mat, type OpenCv, type Plane, numbersOf, withMats } from "./opencv";
+import { type Mask, type Mat, type OpenCv, type Plane, numbers, numbersOf, withMats } from "./opencv";
 
 const VEIN_WIDTH = 1.6; // standard deviation of the smoothing, pixels
 
@@ -12,7 +12,7 @@ export interface Ridges {
 }
 
 function channelOf({ width, height, data }: Plane, c: number): Plane {
-  return { width, height, data: Float32Array.from({ length: width * height }, (_, i) => data[3 * i + c]) };
+  return { width, height, data: numbers(width * height, (i) => data[3 * i + c]) };
 }
 
 // Strengths from 0 to 1, which the strongest tenth of the pixels share.

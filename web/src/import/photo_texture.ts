@@ -1,6 +1,6 @@
 // The pixels of a photographed leaf as a texture: the same steps as src/wilt/import/photo_texture.cpp.
 
-import { type Mask, type OpenCv, type Plane, type Rgb, labOf, morphed, resized, withMats } from "./opencv";
+import { type OpenCv, type Plane, type Rgb, labOf, maskOf, morphed, resized, withMats } from "./opencv";
 import { findRidges } from "./photo_ridges";
 import type { Box, PhotoObject } from "./photo_objects";
 
@@ -43,11 +43,7 @@ function part<Data extends Uint8Array | Float32Array>(
 export function bledColours(cv: OpenCv, rgb: Rgb, object: PhotoObject): Rgb {
   const { width, height } = object.box;
   const colours = part(rgb.data, 3, rgb, object.box, true);
-  const pure: Mask = {
-    width,
-    height,
-    data: Uint8Array.from(object.share.data, (share) => (share >= 0.98 ? 255 : 0)),
-  };
+  const pure = maskOf(object.share, (share) => share >= 0.98);
   const inner = morphed(cv, "erode", pure, cv.MORPH_CROSS, 3).data;
   if (!inner.includes(255)) return { width, height, data: colours };
   // The number of the nearest pure pixel, which has its own number.
@@ -71,12 +67,7 @@ export function bledColours(cv: OpenCv, rgb: Rgb, object: PhotoObject): Rgb {
 function ridgeMap(cv: OpenCv, square: Rgb, share: Plane): Float32Array {
   const side = RIDGE_SIDE;
   const lab = labOf(cv, square, { width: side, height: side });
-  const covered = resized(cv, share, 1, side, side).data;
-  const inside: Mask = {
-    width: side,
-    height: side,
-    data: Uint8Array.from(covered, (value) => (value >= 0.5 ? 255 : 0)),
-  };
+  const inside = maskOf(resized(cv, share, 1, side, side), (covered) => covered >= 0.5);
   return findRidges(cv, lab, inside).strength.data.map((value, i) => (inside.data[i] ? value : -1));
 }
 
