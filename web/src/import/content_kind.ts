@@ -29,7 +29,11 @@ const KNOWN: Known[] = [
   { begin: "<", word: "<svg", name: "a drawing (SVG)", kind: "svg" },
   { begin: "<", word: "<html", name: "a web page", advice: SAVE_FILE },
   { begin: "<", word: "<HTML", name: "a web page", advice: SAVE_FILE },
-  { begin: "version https://git-lfs", name: "a pointer of Git LFS", advice: "fetch the file itself with git lfs pull" },
+  {
+    begin: "version https://git-lfs",
+    name: "a pointer of Git LFS",
+    advice: "fetch the file itself with git lfs pull",
+  },
   { begin: "GIF8", name: "a GIF picture", advice: EXPORT_PICTURE },
   { begin: "RIFF", word: "WEBP", name: "a WebP picture", advice: EXPORT_PICTURE },
   { begin: "II*", name: "a TIFF picture", advice: EXPORT_PICTURE },

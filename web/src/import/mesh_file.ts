@@ -51,10 +51,13 @@ function jsonOf(bytes: Uint8Array, kind: "glb" | "gltf"): { buffers?: { uri?: st
 async function sceneOfGltf(bytes: Uint8Array, kind: "glb" | "gltf"): Promise<Object3D> {
   const apart = jsonOf(bytes, kind).buffers?.find((buffer) => buffer.uri && !buffer.uri.startsWith("data:"));
   if (apart)
-    throw new Error(`its points stand in another file, '${apart.uri}', which a page cannot open; export it as .glb`);
+    throw new Error(
+      `its points stand in another file, '${apart.uri}', which a page cannot open; export it as .glb`,
+    );
   const loader = new GLTFLoader().register((parser) => new NoMaterials(parser));
   const { buffer, byteOffset, byteLength } = bytes;
-  return (await loader.parseAsync(buffer.slice(byteOffset, byteOffset + byteLength) as ArrayBuffer, "")).scene;
+  return (await loader.parseAsync(buffer.slice(byteOffset, byteOffset + byteLength) as ArrayBuffer, ""))
+    .scene;
 }
 
 // PLYLoader passes faces of more than four corners over in silence.
@@ -67,11 +70,14 @@ function refuseLargeFaces(bytes: Uint8Array, geometry: BufferGeometry): void {
     );
   const triangles = (geometry.index?.count ?? 0) / 3;
   if (triangles < listed)
-    throw new Error(`${listed - triangles} of its ${listed} faces have more than four corners; export triangles`);
+    throw new Error(
+      `${listed - triangles} of its ${listed} faces have more than four corners; export triangles`,
+    );
 }
 
 async function sceneOf(bytes: Uint8Array, kind: MeshKind): Promise<Object3D> {
-  const buffer = () => bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength) as ArrayBuffer;
+  const buffer = () =>
+    bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength) as ArrayBuffer;
   if (kind === "glb" || kind === "gltf") return sceneOfGltf(bytes, kind);
   if (kind === "obj") return new OBJLoader().parse(new TextDecoder().decode(bytes));
   if (kind === "stl") return new Mesh(new STLLoader().parse(buffer()));
@@ -87,7 +93,8 @@ function bladeParts(scene: Object3D, notes: string[]): Mesh[] {
   scene.traverse((object) => {
     if (object instanceof Mesh) parts.push(object);
   });
-  const isStalk = (part: Mesh) => part.name.startsWith("stalk") || part.parent?.name.startsWith("stalk") === true;
+  const isStalk = (part: Mesh) =>
+    part.name.startsWith("stalk") || part.parent?.name.startsWith("stalk") === true;
   const blade = parts.filter((part) => !isStalk(part));
   if (blade.length === 0 || blade.length === parts.length) return parts;
   notes.push("the part named 'stalk' was left out; the blade alone is a leaf");
@@ -99,13 +106,21 @@ function pointsOf(part: Mesh, attribute: Attribute, into: Float32Array, first: n
   for (let i = 0; i < attribute.count; ++i) {
     point.fromBufferAttribute(attribute, i).applyMatrix4(part.matrixWorld);
     if (!Number.isFinite(point.x + point.y + point.z))
-      throw new Error(`vertex ${i} of '${part.name || "the mesh"}' is not finite or not in the file; mend its faces`);
+      throw new Error(
+        `vertex ${i} of '${part.name || "the mesh"}' is not finite or not in the file; mend its faces`,
+      );
     point.toArray(into, 3 * (first + i));
   }
 }
 
 // Texture coordinates of all but glTF have their origin at the bottom left.
-function uvOf(attribute: Attribute | undefined, count: number, upwards: boolean, into: Float32Array, first: number) {
+function uvOf(
+  attribute: Attribute | undefined,
+  count: number,
+  upwards: boolean,
+  into: Float32Array,
+  first: number,
+) {
   for (let i = 0; i < count; ++i) {
     const v = attribute ? attribute.getY(i) : NaN;
     into[2 * (first + i)] = attribute ? attribute.getX(i) : NaN;
@@ -115,11 +130,15 @@ function uvOf(attribute: Attribute | undefined, count: number, upwards: boolean,
 
 function facesOf(part: Mesh, first: number, into: number[]): void {
   const { index, attributes } = part.geometry as BufferGeometry;
-  const vertices = attributes.position!.count;
+  const vertices = attributes.position.count;
   const corners = index ? index.count : vertices;
   const mirrored = part.matrixWorld.determinant() < 0;
   for (let k = 0; k + 2 < corners; k += 3) {
-    const [a, b, c] = [k, k + 1, k + 2].map((corner) => (index ? index.getX(corner) : corner)) as [number, number, number];
+    const [a, b, c] = [k, k + 1, k + 2].map((corner) => (index ? index.getX(corner) : corner)) as [
+      number,
+      number,
+      number,
+    ];
     if (Math.max(a, b, c) >= vertices)
       throw new Error(
         `face ${k / 3} has vertex ${Math.max(a, b, c)}, but there are ${vertices} (counted from 0); remove the face`,
@@ -129,7 +148,8 @@ function facesOf(part: Mesh, first: number, into: number[]): void {
 }
 
 function joined(parts: Mesh[], upwards: boolean, notes: string[]): MeshTriangles {
-  const attributesOf = (part: Mesh) => (part.geometry as BufferGeometry).attributes as Record<string, Attribute>;
+  const attributesOf = (part: Mesh) =>
+    (part.geometry as BufferGeometry).attributes as Record<string, Attribute>;
   const counts = parts.map((part) => attributesOf(part).position?.count ?? 0);
   const total = counts.reduce((sum, count) => sum + count, 0);
   if (total > MOST_VERTICES)
@@ -140,10 +160,10 @@ function joined(parts: Mesh[], upwards: boolean, notes: string[]): MeshTriangles
   let first = 0;
   parts.forEach((part, k) => {
     if (counts[k] === 0) return;
-    pointsOf(part, attributesOf(part).position!, positions, first);
-    uvOf(attributesOf(part).uv, counts[k]!, upwards, uv, first);
+    pointsOf(part, attributesOf(part).position, positions, first);
+    uvOf(attributesOf(part).uv, counts[k], upwards, uv, first);
     facesOf(part, first, faces);
-    first += counts[k]!;
+    first += counts[k];
   });
   if (faces.length === 0) throw new Error("there is no face; a leaf needs triangles");
   const hasUv = parts.some((part) => attributesOf(part).uv);
@@ -159,7 +179,9 @@ export async function parseMesh(bytes: Uint8Array, kind: MeshKind): Promise<Mesh
   } catch (error) {
     // RangeError, SyntaxError, TypeError: the loaders trip over what is damaged, in words that help nobody.
     if (error instanceof Error && error.constructor === Error) throw error;
-    throw new Error(`it cannot be read as a mesh: its content is not that of a .${kind} file, or it is cut off`);
+    throw new Error(
+      `it cannot be read as a mesh: its content is not that of a .${kind} file, or it is cut off`,
+    );
   }
   return joined(bladeParts(scene, notes), kind !== "glb" && kind !== "gltf", notes);
 }
