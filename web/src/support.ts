@@ -16,3 +16,22 @@ export function hasWebGl2(): boolean {
     return false;
   }
 }
+
+/** Says what is missing and shows leaves that withered elsewhere. */
+export function showWithoutCore(): void {
+  const missing = typeof WebAssembly === "object" ? "WebAssembly's SIMD instructions" : "WebAssembly";
+  const box = document.createElement("div");
+  box.className = "fallback";
+  box.id = "without-core";
+  box.innerHTML = `
+    <h2>This browser lacks ${missing}</h2>
+    <p>The leaves here are computed in the page, and need it. Chrome and Edge 91, Firefox 89, Safari 16.4 and later have it;
+      some browsers turn it off in a "lockdown" or strict security mode.</p>
+    <p>The same at a terminal:</p>
+    <pre>wilt simulate maple -o maple.glb -o maple.png</pre>
+    <p>What it looks like:</p>
+    <p><img alt="A maple leaf, fresh, turning, dry" src="stages.webp" width="960" height="240" /></p>`;
+  document.getElementById("stage")!.replaceChildren(box);
+  document.getElementById("transport")!.hidden = true;
+  document.getElementById("panel")!.hidden = true;
+}

@@ -30,6 +30,7 @@ export class Stage {
   private intervals: number[] = [];
   private verySlow = 0;
   private lastDrawn = 0;
+  private takingPictures = false;
   private detail = Math.min(devicePixelRatio, 2);
 
   /** Throws where the browser has no WebGL 2. */
@@ -82,7 +83,7 @@ export class Stage {
   /** Once per picture of the screen. */
   draw(): void {
     this.controls.update();
-    if (!this.dirty) return;
+    if (!this.dirty || this.takingPictures) return;
     this.dirty = false;
     this.renderer.render(this.scene, this.camera);
     this.keepUp(performance.now());
@@ -131,33 +132,38 @@ export class Stage {
     return p.set(((p.x + 1) / 2) * clientWidth, ((1 - p.y) / 2) * clientHeight, p.z);
   }
 
-  /** A picture of the scene in any size, drawn now; the stage's own size comes back with the next draw. */
-  picture(width: number, height: number): HTMLCanvasElement {
-    const aspect = this.camera.aspect;
+  /** Draws pictures of another size until `endPictures`; both even for films. */
+  beginPictures(width: number, height: number): void {
+    this.takingPictures = true;
     this.renderer.setPixelRatio(1);
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+  }
+
+  /** The scene as it is now, before its background. */
+  takePicture(onto: HTMLCanvasElement): void {
+    const { width, height } = this.renderer.domElement;
+    if (onto.width !== width || onto.height !== height) Object.assign(onto, { width, height });
     this.renderer.render(this.scene, this.camera);
-    const copy = document.createElement("canvas");
-    copy.width = width;
-    copy.height = height;
-    const context = copy.getContext("2d")!;
+    const pen = onto.getContext("2d")!;
     const style = getComputedStyle(this.canvas.parentElement!);
-    const fill = context.createRadialGradient(width / 2, height * 0.4, 0, width / 2, height * 0.4, Math.hypot(width, height) * 0.6);
+    const fill = pen.createRadialGradient(width / 2, height * 0.4, 0, width / 2, height * 0.4, Math.hypot(width, height) * 0.6);
     fill.addColorStop(0, style.getPropertyValue("--stage-centre"));
     fill.addColorStop(1, style.getPropertyValue("--stage-edge"));
-    context.fillStyle = fill;
-    context.fillRect(0, 0, width, height);
-    context.drawImage(this.canvas, 0, 0);
-    this.camera.aspect = aspect;
+    pen.fillStyle = fill;
+    pen.fillRect(0, 0, width, height);
+    pen.drawImage(this.canvas, 0, 0);
+  }
+
+  endPictures(): void {
+    this.takingPictures = false;
     this.resize();
-    return copy;
   }
 
   private resize(): void {
     const { clientWidth, clientHeight } = this.canvas.parentElement!;
-    if (clientWidth === 0 || clientHeight === 0) return;
+    if (clientWidth === 0 || clientHeight === 0 || this.takingPictures) return;
     this.renderer.setPixelRatio(this.detail);
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
