@@ -88,7 +88,7 @@ async function exportFilm(app: App): Promise<void> {
   byId("messages").append(box);
   const shownBefore = playback.playhead;
   const aspect = stage.canvas.clientWidth / stage.canvas.clientHeight;
-  const height = 2 * Math.round(Math.min(1080, 1920 / aspect) / 2);
+  const height = 2 * Math.round((Math.min(1080, 1920 / aspect) * stage.pixelShare) / 2);
   const width = 2 * Math.round((height * aspect) / 2);
   const rate = 30;
   const seconds = (Number(app.active.setting("clip.seconds", 4)) * playback.iterations) / 100;

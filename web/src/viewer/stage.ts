@@ -121,6 +121,11 @@ export class Stage {
     this.invalidate();
   }
 
+  /** 1, or the share of the pixels' side that this machine draws quickly. */
+  get pixelShare(): number {
+    return kLevels[this.level]!.pixels;
+  }
+
   get isNamedView(): boolean {
     return this.following;
   }
