@@ -43,13 +43,13 @@ export class App {
   constructor(
     readonly stage: Stage | undefined,
     readonly messages: Messages,
+    first: Session,
   ) {
-    this.active = this.addSession();
+    this.active = this.addSession(first);
     this.playback.events.on("moved", () => this.show());
   }
 
-  addSession(): Session {
-    const session = new Session();
+  addSession(session: Session): Session {
     const side = this.sessions.push(session) - 1;
     session.events.on("leaf", (info) => {
       this.stage?.setLeaf(side, info);
