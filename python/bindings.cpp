@@ -7,6 +7,11 @@ namespace {
 
 // As `--set` takes it; bool before numbers, as Python's are numbers too.
 std::string text_of(const py::handle& value) {
+  if (py::isinstance<py::sequence>(value) && !py::isinstance<py::str>(value)) {
+    std::string list;
+    for (const py::handle entry : value) list += (list.empty() ? "" : ",") + text_of(entry);
+    return list;
+  }
   std::string text = py::str(value);
   if (py::isinstance<py::bool_>(value) || text == "True" || text == "False")
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -20,7 +25,7 @@ std::string dotted(std::string key) {
 
 }  // namespace
 
-std::vector<Assignment> assignments_of(const py::kwargs& keywords, const std::string& prefix) {
+std::vector<Assignment> assignments_of(const py::dict& keywords, const std::string& prefix) {
   std::vector<Assignment> list;
   for (const auto& [key, value] : keywords) list.push_back({prefix + dotted(py::str(key)), text_of(value)});
   return list;

@@ -28,7 +28,7 @@ void bind_reproduce(py::module_& m);
 
 /// Keyword arguments as settings: water__humidity=0.3 is water.humidity = 0.3; so is **{"water.humidity":
 /// 0.3}.
-std::vector<Assignment> assignments_of(const py::kwargs& keywords, const std::string& prefix = "");
+std::vector<Assignment> assignments_of(const py::dict& keywords, const std::string& prefix = "");
 
 /// JSON text as Python's dictionaries, lists and numbers.
 py::object from_json(const std::string& text);

@@ -12,8 +12,8 @@ namespace {
 
 using Lock = std::lock_guard<FairMutex>;
 
-std::unique_ptr<Simulation> at_rest(const Subject& subject) {
-  return std::make_unique<Simulation>(subject.leaf->leaf, subject.veins->venation, subject.config);
+std::unique_ptr<Simulation> at_rest(const Subject& subject, const Config& config) {
+  return std::make_unique<Simulation>(subject.leaf->leaf, subject.veins->venation, config);
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ void FairMutex::unlock() {
 }
 
 RunObject::RunObject(std::shared_ptr<const Subject> subject)
-    : subject_(std::move(subject)), simulation_(at_rest(*subject_)) {}
+    : subject_(std::move(subject)), simulation_(at_rest(*subject_, subject_->config)) {}
 
 int RunObject::iteration() const {
   const Lock lock(mutex_);
@@ -45,6 +45,19 @@ int RunObject::last_iteration() const {
 bool RunObject::ended() const {
   const Lock lock(mutex_);
   return simulation_->ended();
+}
+
+Config RunObject::config() const {
+  const Lock lock(mutex_);
+  return simulation_->config();
+}
+
+void RunObject::change(const std::vector<Assignment>& settings) {
+  const Lock lock(mutex_);
+  Config tried = simulation_->config();  // all of them or none
+  for (const Assignment& one : settings) add_change(tried, simulation_->iteration(), one.key, one.value);
+  for (const Assignment& one : settings) simulation_->change(one.key, one.value);
+  result_.reset();
 }
 
 void RunObject::step_once() {
@@ -92,7 +105,7 @@ std::shared_ptr<ResultObject> RunObject::result() {
   auto withered = std::make_shared<WitheredLeaf>();
   withered->leaf = subject_->leaf->leaf;
   withered->venation = subject_->veins->venation;
-  withered->config = subject_->config;
+  withered->config = simulation_->config();
   withered->result = std::as_const(*simulation_).finish();
   const Venation::Timings& veins = withered->venation.timings;
   withered->timings = {subject_->leaf->seconds, veins.geodesics, veins.embedding,
@@ -114,8 +127,10 @@ std::string RunObject::checkpoint() const {
 }
 
 void RunObject::restore(const std::string& bytes) {
-  auto restored = at_rest(*subject_);
-  restored->restore(parse_checkpoint(bytes, "checkpoint"));
+  const Checkpoint checkpoint = parse_checkpoint(bytes, "checkpoint");
+  const bool unchanged = checkpoint.config == to_json(subject_->config);
+  auto restored = at_rest(*subject_, unchanged ? subject_->config : config());
+  restored->restore(checkpoint);
   const Lock lock(mutex_);
   simulation_ = std::move(restored);
   state_.reset();

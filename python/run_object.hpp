@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "objects.hpp"
 #include "wilt/core/monitor.hpp"
@@ -35,6 +36,14 @@ class RunObject {  // none of whose functions touches Python
   int last_iteration() const;  ///< how many there are to be
   bool ended() const;          ///< whether all iterations are done, or the run has stopped
 
+  /// The run's, with what was changed until now.
+  Config config() const;
+
+  /// Has settings change now: simulation.change(water__humidity=0.2). The next steps have the new values, and
+  /// `config` says so. Those that may are during_run in wilt.settings(). Raises ValueError for others, and
+  /// for values out of range; nothing has changed then.
+  void change(const std::vector<Assignment>& settings);
+
   /// One iteration. When it cannot be done the run stops: `result` says why, what was computed is kept.
   /// Nothing happens once it has ended.
   void step();
@@ -57,7 +66,7 @@ class RunObject {  // none of whose functions touches Python
 
   /// Goes on from a checkpoint of a simulation like this one: results are as if it had never been left.
   /// Raises ValueError when it is of another leaf, other veins, another configuration or version; the
-  /// simulation is then as it was.
+  /// simulation is then as it was. What was changed since stays only if the checkpoint knows of it.
   void restore(const std::string& bytes);
 
  private:

@@ -38,15 +38,32 @@ Toml toml_of(const py::object& config) {
   return toml;
 }
 
+// `changes` as `change` in a configuration: [{"iteration": n, key: value, ...}, ...].
+void add_changes(Config& config, const py::object& changes) {
+  for (const py::handle section : changes) {
+    if (!py::isinstance<py::dict>(section) || !section.contains("iteration") ||
+        !py::isinstance<py::int_>(section["iteration"]))
+      throw Error(ErrorCode::configuration,
+                  "change takes a list like [{\"iteration\": 40, \"water.humidity\": 0.2}, ...]");
+    const auto iteration = section["iteration"].cast<std::int64_t>();
+    for (const Assignment& one : assignments_of(section.cast<py::dict>())) {
+      if (one.key != "iteration") add_change(config, iteration, one.key, one.value);
+    }
+  }
+}
+
 // The leaf was made with a seed and a size, which stand in the configuration too.
 Config config_of(const LeafObject& leaf, const SimulationArguments& arguments) {
   const std::int64_t vertices = leaf.vertices.value_or(0), seed = static_cast<std::int64_t>(leaf.leaf.seed);
-  std::vector<Assignment> assignments = assignments_of(arguments.settings);
+  const py::dict settings = arguments.settings.attr("copy")();
+  const py::object changes = settings.attr("pop")("change", py::list());
+  std::vector<Assignment> assignments = assignments_of(settings);
   assignments.insert(assignments.begin(),
                      {{"vertices", std::to_string(vertices)}, {"seed", std::to_string(seed)}});
   if (arguments.model) assignments.push_back({"model", *arguments.model});
   const Toml toml = toml_of(arguments.config);
   Config config = resolve_config(leaf.leaf.species, toml.text, toml.source, assignments);
+  add_changes(config, changes);
   const auto refuse = [](const char* key, std::int64_t asked, std::int64_t made) {
     throw Error(ErrorCode::configuration,
                 fmt::format("{0} is {1}, but the leaf was made with {2}; give {0}={1} where it is made", key,
@@ -83,6 +100,12 @@ std::shared_ptr<ResultObject> result(RunObject& run) {
 
 py::bytes checkpoint(const RunObject& run) {
   return py::bytes(waiting(&RunObject::checkpoint)(run));
+}
+
+void change(RunObject& run, const py::kwargs& settings) {
+  const std::vector<Assignment> changes = assignments_of(settings);
+  const py::gil_scoped_release released;
+  run.change(changes);
 }
 
 void restore(RunObject& run, const py::bytes& bytes) {
@@ -124,7 +147,7 @@ std::shared_ptr<StateObject> next_state(RunObject& run) {
 }
 
 py::dict resolved_config(const RunObject& run) {
-  return from_json(to_json(run.subject().config));
+  return from_json(to_json(waiting(&RunObject::config)(run)));
 }
 
 void bind_simulation(py::module_& m) {
@@ -146,6 +169,7 @@ void bind_simulation(py::module_& m) {
       .def("run", &run_to_end, py::arg("callback") = none, docs::run_to_end)
       .def("__iter__", [](const Shared& run) { return run; })
       .def("__next__", &next_state, docs::next_state)
+      .def("change", &change, d::change)
       .def("checkpoint", &checkpoint, d::checkpoint)
       .def("restore", &restore, py::arg("checkpoint"), d::restore)
       .def_property_readonly("iteration", waiting(&RunObject::iteration), d::iteration)

@@ -21,7 +21,9 @@ struct SimulationArguments {
   /// A file of settings (TOML, as `wilt simulate --print-config` writes it), or a str with '=' in it: its
   /// text. Keyword arguments win over it; seed and vertices are the leaf's.
   py::object config;
-  py::kwargs settings;  ///< see wilt.settings(); water__humidity=0.3, or **{"water.humidity": 0.3}
+  /// See wilt.settings(); water__humidity=0.3, or **{"water.humidity": 0.3}. change=[{"iteration": 40,
+  /// "water.humidity": 0.2}]: the steps after iteration 40 have the new value.
+  py::kwargs settings;
 };
 
 /// The leaf at rest, iteration 0. Raises ValueError for an unknown setting, with the nearest one, and for a
@@ -37,7 +39,8 @@ std::shared_ptr<ResultObject> run_to_end(const std::shared_ptr<RunObject>& run, 
 /// stopped.
 std::shared_ptr<StateObject> next_state(RunObject& run);
 
-/// {setting: value}, resolved: Simulation(leaf, **simulation.config) is the same simulation again.
+/// {setting: value}, resolved, with what was changed until now: Simulation(leaf, **simulation.config) is the
+/// same simulation again.
 py::dict resolved_config(const RunObject& run);
 
 }  // namespace wilt::python

@@ -44,7 +44,8 @@ void add_leaf_options(CLI::App& verb, LeafRequest& request, bool& all) {
           [&read](const std::string& text) {
             read.petiole = parse_pair(text, ',', "--petiole takes two numbers, X,Y");
           },
-          "Where the stalk meets the blade: pixels of a photo, units of a file")
+          "Where the stalk meets the blade: pixels of a photo, units of a\nfile, millimetres from a species' "
+          "own petiole")
       ->type_name("X,Y");
   verb.add_option_function<std::string>(
           "--leaf",

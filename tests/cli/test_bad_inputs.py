@@ -472,7 +472,10 @@ class OtherReaders(Cases):
                  "deep": (b"a = " + b"[" * 100000, (2,)), "deep keys": (b".".join([b"a"] * 100000) + b" = 1", (2,)),
                  "an unknown key": (b"dtt = 1", (2,)), "a table for a number": (b"[dt]\nx = 1", (2,)),
                  "twice": (b"dt = 0.5\ndt = 0.5", (2,)), "a very long line": (b"dt = " + b"1" * 1_000_000, (2,)),
-                 "a date": (b"dt = 1979-05-27", (2,)), "an array": (b"dt = [1]", (2,)), "NUL": (b"dt = 0.5\0", (2,))}
+                 "a date": (b"dt = 1979-05-27", (2,)), "an array": (b"dt = [1]", (2,)), "NUL": (b"dt = 0.5\0", (2,)),
+                 "a list of words": (b"water.dry_region = ['a', 'b']", (2,)), "changes that are none": (b"change = [1, {}]", (2,)),
+                 "a change of everything": (b"[[change]]\niteration = 1\nmodel = 'paper'", (2,)),
+                 "deep keys in a list": (b"a = [0.1, {" + b".".join([b"1"] * 100000) + b" = 1}]", (2,))}
         for word in ("nan", "inf", "-inf", "1e400", "-1", "0", "true", '"x"', "1e-300", "1e300"):
             cases[f"dt = {word}"] = (f"dt = {word}".encode(), (2,))
         for case, (data, codes) in cases.items():
@@ -485,7 +488,8 @@ class OtherReaders(Cases):
     def test_set(self):
         for word in ("dt", "=", "dt=", "=1", "dt=nan", "dt=inf", "dt=-1", "dt=1e999", "dt=1 2", "iterations=1.5",
                      "iterations=-1", "iterations=99999999999999999999", "species=", "species=oak", "model=x", "dt=\xff",
-                     "water.humidity=2", "seed=-1", "x" * 300 + "=1", "dt=" + "1" * 300, "dt=\n", "a.b.c.d=1"):
+                     "water.humidity=2", "external.forces=1,2", "external.forces=1,2,x", "water.dry_region=0,0,1,0,1,99",
+                     "water.dry_region=" + "1," * 5000 + "1", "change=1", "seed=-1", "x" * 300 + "=1", "dt=" + "1" * 300, "dt=\n", "a.b.c.d=1"):
             result = wilt("simulate", "maple", "--set", word, "--print-config")
             self.judge("--set", word[:20], result, (2,), "", "")
 

@@ -141,6 +141,36 @@ class CommandLine(unittest.TestCase):
         self.expect(0, "simulate", "willow", "--config", config, "-o", second, "--threads", 2)
         self.assertEqual(first.read_bytes(), second.read_bytes())
 
+    def test_settings_change_in_a_run(self):
+        """Oracles: air that is saturated takes nothing; the resolved configuration gives the bytes again."""
+        config, report, resolved = (self.dir / name for name in ("run.toml", "report.json", "resolved.toml"))
+        config.write_text("iterations = 9\n[[change]]\niteration = 6\n\"water.humidity\" = 1\n")
+        arguments = ["simulate", "ivy", "--vertices", 300, "--report", report, "--config"]
+        self.expect(0, *arguments, config)
+        data = json.loads(report.read_text())
+        self.assertEqual(data["config"]["change"], [{"iteration": 6, "water.humidity": 1}])
+        water = [step["water"] for step in data["steps"]]
+        lost = [before - after for before, after in zip(water, water[1:])]
+        self.assertTrue(all(some > 0.01 for some in lost[:5]) and max(map(abs, lost[5:])) < 1e-9, lost)
+        resolved.write_text(self.expect(0, *arguments, config, "--print-config").stdout)
+        self.assertIn("[[change]]\niteration = 6\n\"water.humidity\" = 1\n", resolved.read_text())
+        self.expect(0, *arguments, resolved)
+        self.assertEqual(json.loads(report.read_text())["positions_hash"], data["positions_hash"])
+        config.write_text("[[change]]\niteration = 6\ndt = 0.2\n")
+        self.expect(2, *arguments, config, says="run.toml, line 3: dt cannot change in a run")
+        config.write_text("[[change]]\niteration = 100\nwater.humidity = 0.2\n")
+        self.expect(0, *arguments, config, "--iterations", 1, says="after iteration 100 never comes")
+
+    def test_settings_that_are_lists(self):
+        """Oracle: Table 2's variant a, given as numbers."""
+        forces = "0,0,.04,0,0,.04,.01,.01,.04,.03,-.03,.03,-.02,.01,.04,0,0,.04,0,0,.04"
+        arguments = ["simulate", "maple", "--vertices", 300, "--iterations", 3, "--json"]
+        hashes = {json.loads(self.expect(0, *arguments, "--set", f"external.forces={text}").stdout)["positions_hash"]
+                  for text in (forces, "")}
+        self.assertEqual(len(hashes), 1)
+        self.expect(2, *arguments, "--set", "external.forces=0,0,1", says="the leaf has 7 tips: give 21")
+        self.expect(2, *arguments, "--set", "water.dry_region=0,0,1,1", says="6 numbers or more")
+
     def test_a_wrong_configuration_file_is_named_with_its_line(self):
         config = self.dir / "run.toml"
         config.write_text("dt = 0.1\n[water]\nhumidty = 0.5\n")

@@ -42,7 +42,7 @@ WRONG = [
     (2, ["simulate", "maple", "-o", "m.#.obj", "-o", "m.obj"], "would both write"),
     (2, ["simulate", "maple"], "nothing would be written; add -o maple.glb"),
     (2, ["simulate", "-o", "m.glb"], "which leaf?"),
-    (2, ["simulate", "maple", "-o", "m.glb", "--petiole", "1,2"], "a species has its petiole"),
+    (2, ["simulate", "maple", "-o", "m.glb", "--leaf", "2"], "go with a file, not with a species"),
     (2, ["leaf", "maple", "-o", "a.glb", "-o", "b.glb"], "--output was given more than once; give it once"),
     (2, ["leaf", "maple", "-o", "m.glb", "--vertices", "10"], "--vertices takes a whole number from 200 to 1000000, not '10'"),
     (2, ["leaf", "maple", "-o", "m.png"], "a leaf is .glb or .obj"),

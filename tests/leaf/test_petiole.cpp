@@ -151,5 +151,54 @@ TEST(PlaceInLeafFrame, RefusesASurfaceWithoutAnUpperSide) {
   EXPECT_THROW(place_in_leaf_frame(leaf, positions, VertexId(1), 1.0), Error);
 }
 
+// Oracles: the nearest margin vertex by hand; a rigid motion keeps all distances; the definition of the
+// frame.
+TEST(WithPetiole, HoldsALeafByAnotherPlaceOfItsMargin) {
+  const Leaf leaf = make_leaf("maple", 500, 3);
+  const Vec2 wanted(0.03, 0.05);
+  const Leaf moved = with_petiole(leaf, wanted);
+  const auto away = [&](VertexId v) { return (leaf.positions.row(v).head<2>().transpose() - wanted).norm(); };
+  EXPECT_TRUE(moved.mesh.is_boundary(moved.petiole));
+  EXPECT_NE(moved.petiole, leaf.petiole);
+  for (const VertexId v : leaf.mesh.vertices()) {
+    EXPECT_TRUE(!leaf.mesh.is_boundary(v) || away(moved.petiole) <= away(v)) << v;
+    const VertexId w((v + 77) % leaf.mesh.num_vertices());
+    EXPECT_NEAR((moved.positions.row(v) - moved.positions.row(w)).norm(),
+                (leaf.positions.row(v) - leaf.positions.row(w)).norm(), 1e-14);
+  }
+  EXPECT_EQ(moved.positions.row(moved.petiole).norm(), 0.0);
+  EXPECT_NEAR(area_vector(moved.mesh, moved.positions).normalized().z(), 1.0, 1e-12);
+  int farthest = 0;
+  moved.positions.rowwise().norm().maxCoeff(&farthest);
+  EXPECT_NEAR(moved.positions(farthest, 0), 0.0, 1e-12);
+  EXPECT_GT(moved.positions(farthest, 1), 0.0);
+  EXPECT_EQ(moved.stalk.centreline, leaf.stalk.centreline);  // in the leaf frame, which begins at the petiole
+  EXPECT_EQ(moved.placement.scale, 1.0);
+  EXPECT_TRUE(moved.placement.rotation.isIdentity(0.0) && moved.placement.translation.isZero(0.0));
+  EXPECT_EQ(moved.notes.size(), leaf.notes.size() + 1);
+}
+
+// Oracle: the loops of a leaf with an opening, the longer of which is the margin.
+TEST(WithPetiole, TakesTheOuterMarginOfAHoledLeaf) {
+  Leaf leaf = make_leaf("ivy", 800, 1);
+  const auto all = leaf.mesh.face_matrix();
+  const auto is_inner = [&](int f) {
+    for (int k = 0; k < 3; ++k) {
+      if (leaf.mesh.is_boundary(VertexId(all(f, k)))) return false;
+    }
+    return true;
+  };
+  int out = static_cast<int>(all.rows()) / 2;
+  while (!is_inner(out)) ++out;
+  Faces faces(all.rows() - 1, 3);
+  faces << all.topRows(out), all.bottomRows(all.rows() - out - 1);
+  leaf.mesh = SurfaceMesh(leaf.mesh.num_vertices(), faces);
+  ASSERT_EQ(leaf.mesh.boundary_loops().size(), 2u);
+  for (const std::vector<VertexId>& loop : leaf.mesh.boundary_loops()) {
+    const Leaf moved = with_petiole(leaf, leaf.positions.row(loop[0]).head<2>().transpose());
+    EXPECT_EQ(moved.petiole == loop[0], loop.size() > 3);
+  }
+}
+
 }  // namespace
 }  // namespace wilt

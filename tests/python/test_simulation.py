@@ -131,6 +131,43 @@ class Settings(WithFolder):
             wilt.Simulation(leaf(), veins=veins)
 
 
+class Changes(WithFolder):
+    """Oracles: the program with the same [[change]]; the run that was changed elsewhere; the run that was not."""
+
+    def test_settings_change_in_a_run_as_the_programs_do(self):
+        subject = leaf("ivy")
+        sim = wilt.Simulation(subject, **SMALL)
+        for _ in range(5):
+            sim.step()
+        before = sim.checkpoint()
+        sim.change(water__humidity=0.1, **{"springs.stiffness": 6})
+        sim.change(water__dry_region=[0, 0, 0.5, 0, 0.5, 0.5])
+        self.assertEqual(sim.config["change"], [{"iteration": 5, "springs.stiffness": 6, "water.dry_region": [0, 0, 0.5, 0, 0.5, 0.5],
+                                                 "water.humidity": 0.1}])
+        changed = sim.run()
+        again = wilt.Simulation(subject, **sim.config).run()
+        self.assertEqual(again.positions_hash, changed.positions_hash)
+        self.assertEqual(again.report["config"], changed.report["config"])
+        (self.dir / "run.toml").write_text("[[change]]\niteration = 5\nwater.humidity = 0.1\nsprings.stiffness = 6\n"
+                                           "water.dry_region = [0, 0, 0.5, 0, 0.5, 0.5]\n")
+        self.program("simulate", "ivy", "--vertices", 400, "--iterations", 12, "--frames", 4, "--set", "texture.size=0",
+                     "--config", "run.toml", "--report", "report.json")
+        self.assertEqual(json.loads((self.dir / "report.json").read_text())["positions_hash"], changed.positions_hash)
+        sim.restore(before)
+        self.assertNotIn("change", sim.config)
+        self.assertEqual(sim.run().positions_hash, wilt.Simulation(subject, **SMALL).run().positions_hash)
+
+    def test_what_may_not_change_is_refused_and_changes_nothing(self):
+        sim = wilt.Simulation(leaf("ivy"), **SMALL)
+        for settings in ({"dt": 0.2}, {"water__humidity": 0.1, "model": "paper"}, {"water__humidity": 2}, {"humidity": 1}):
+            with self.assertRaises(ValueError):
+                sim.change(**settings)
+        self.assertNotIn("change", sim.config)
+        for change in ([{"water.humidity": 1}], ["x"], [{"iteration": 0.5}], [{"iteration": 1, "dt": 1}]):
+            with self.assertRaises(ValueError):
+                wilt.Simulation(leaf("ivy"), change=change, **SMALL)
+
+
 class Interrupts(unittest.TestCase):
     def test_ctrl_c_stops_a_run_which_may_go_on(self):
         sim = wilt.Simulation(leaf(), iterations=100000, frames=2)

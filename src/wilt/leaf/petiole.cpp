@@ -6,6 +6,8 @@
 // and its axis leaves the curve at s = c/2 and c/2 + 1/2. S = 1 for perfect symmetry.
 #include "wilt/leaf/petiole.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -294,6 +296,22 @@ void place_in_leaf_frame(Leaf& leaf, const Points3& file_positions, VertexId pet
   leaf.placement.rotation = axes;
   leaf.placement.translation = origin;
   leaf.placement.scale = 1.0 / metres_per_unit;
+}
+
+Leaf with_petiole(Leaf leaf, const Vec2& wanted) {
+  const auto distance = [&](VertexId v) {
+    return (leaf.positions.row(v).head<2>().transpose() - wanted).squaredNorm();
+  };
+  const std::vector<VertexId>& margin = margin_loop(leaf.mesh, leaf.positions);
+  const VertexId petiole = *std::min_element(
+      margin.begin(), margin.end(), [&](VertexId a, VertexId b) { return distance(a) < distance(b); });
+  const Vec2 place = 1000.0 * leaf.positions.row(petiole).head<2>().transpose();
+  leaf.notes.push_back(
+      fmt::format("petiole as given: the margin vertex at ({:.4g}, {:.4g}) mm, {:.3g} mm away", place.x(),
+                  place.y(), 1000.0 * std::sqrt(distance(petiole))));
+  place_in_leaf_frame(leaf, Points3(leaf.positions), petiole, 1.0);
+  leaf.placement = Placement();
+  return leaf;
 }
 
 }  // namespace wilt

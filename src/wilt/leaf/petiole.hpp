@@ -37,4 +37,10 @@ PetioleGuess find_petiole(const Points2& margin);
 /// counter-clockwise to.
 void place_in_leaf_frame(Leaf& leaf, const Points3& file_positions, VertexId petiole, double metres_per_unit);
 
+/// A leaf without a file, held by another place of its margin: the margin vertex nearest to `wanted` (x and y
+/// in metres in the leaf frame that it has, its stalk at 0, 0) becomes the petiole and the leaf is put into
+/// its frame anew; the stalk goes with it, the texture coordinates stay. Says so in its notes. Throws
+/// Error{input} as place_in_leaf_frame does. O(#V), deterministic.
+Leaf with_petiole(Leaf leaf, const Vec2& wanted);
+
 }  // namespace wilt

@@ -10,6 +10,7 @@
 #include "wilt/core/error.hpp"
 #include "wilt/core/file.hpp"
 #include "wilt/core/nearest.hpp"
+#include "wilt/leaf/petiole.hpp"
 #include "wilt/leaf/species.hpp"
 #include "wilt/output/veins_files.hpp"
 
@@ -23,11 +24,10 @@ bool looks_like_a_file(const std::string& leaf) {
 }
 
 void refuse_options_of_files(const ReadOptions& read) {
-  if (read.petiole || read.nth != 1 || !read.mask.empty() || read.mm_per_pixel || read.threshold ||
-      read.scan || read.mm_per_unit)
+  if (read.nth != 1 || !read.mask.empty() || read.mm_per_pixel || read.threshold || read.scan ||
+      read.mm_per_unit)
     throw Error(ErrorCode::configuration,
-                "--petiole, --leaf and the options of photos and scans go with a file; a species has its "
-                "petiole");
+                "--leaf and the options of photos and scans go with a file, not with a species");
 }
 
 }  // namespace
@@ -45,8 +45,10 @@ void take_size_and_seed(LeafRequest& request, const Config& config) {
 Leaf load_leaf(const LeafRequest& request, const Monitor& monitor) {
   if (is_species(request.leaf)) {
     refuse_options_of_files(request.read);
-    return make_leaf(request.leaf, request.read.vertices.value_or(kDefaultVertices), request.read.seed,
-                     monitor);
+    Leaf leaf =
+        make_leaf(request.leaf, request.read.vertices.value_or(kDefaultVertices), request.read.seed, monitor);
+    constexpr double kMetres = 0.001;
+    return request.read.petiole ? with_petiole(std::move(leaf), kMetres * *request.read.petiole) : leaf;
   }
   std::error_code unknown;  // of a symbolic link to itself, say
   if (!std::filesystem::exists(request.leaf, unknown)) {

@@ -14,9 +14,11 @@ namespace wilt {
 inline constexpr int kDefaultVertices = 2000;  ///< of a species
 
 struct LeafRequest {
-  std::string leaf;    ///< a species' name or a file
-  ReadOptions read{};  ///< of a species: its vertices and seed only
-  std::string veins;   ///< a veins.json to take the veins from, or empty: they are found
+  std::string leaf;  ///< a species' name or a file
+  /// Of a species: its vertices, seed and petiole only, the latter in millimetres in its leaf frame
+  /// (leaf.hpp).
+  ReadOptions read{};
+  std::string veins;  ///< a veins.json to take the veins from, or empty: they are found
 };
 
 /// Whether `leaf` names one of the built-in species.
