@@ -3,7 +3,7 @@ if(EMSCRIPTEN)
   # Header-only libraries from the system, without the system's libc headers in the way.
   set(headers ${CMAKE_BINARY_DIR}/headers)
   file(MAKE_DIRECTORY ${headers})
-  foreach(name fmt nlohmann toml++ boost stb tiny_gltf.h)
+  foreach(name fmt nlohmann toml++ boost stb svgpp exboost tiny_gltf.h)
     file(CREATE_LINK /usr/include/${name} ${headers}/${name} SYMBOLIC)
   endforeach()
   add_library(Eigen3::Eigen INTERFACE IMPORTED)

@@ -13,7 +13,7 @@
 #include "errors.hpp"
 #include "objects.hpp"
 #include "wilt/core/error.hpp"
-#include "wilt/import/read_leaf.hpp"
+#include "wilt/import/leaf_in_memory.hpp"
 #include "wilt/mesh/geometry.hpp"
 #include "wilt/run/leaf_request.hpp"
 

@@ -16,14 +16,14 @@ json ring_json(const Points2& ring) {
   return rows;
 }
 
-std::string written(const detail::DrawnLeaf& drawn) {
+std::string written(const DrawnLeaf& drawn) {
   json document = {{"outline", ring_json(drawn.outline.margin)}, {"mm_per_unit", drawn.mm_per_unit}};
   for (const Points2& hole : drawn.outline.holes) document["holes"].push_back(ring_json(hole));
   if (drawn.petiole) document["petiole"] = {drawn.petiole->x(), drawn.petiole->y()};
   return document.dump();
 }
 
-void check(const detail::DrawnLeaf& drawn) {
+void check(const DrawnLeaf& drawn) {
   fuzz::require(drawn.outline.margin.rows() >= 3 && drawn.outline.margin.allFinite(),
                 "the margin is a finite ring");
   for (const Points2& hole : drawn.outline.holes)
@@ -34,11 +34,10 @@ void check(const detail::DrawnLeaf& drawn) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto drawn =
-      fuzz::unless_refused([&] { return detail::parse_json_outline(fuzz::text_of(data, size)); });
+  const auto drawn = fuzz::unless_refused([&] { return parse_json_outline(fuzz::text_of(data, size)); });
   if (!drawn) return 0;
   check(*drawn);
-  const detail::DrawnLeaf again = detail::parse_json_outline(written(*drawn));
+  const DrawnLeaf again = parse_json_outline(written(*drawn));
   // Closing points go away once for every reading.
   if (again.outline.margin.rows() == drawn->outline.margin.rows())
     fuzz::require(again.outline.margin == drawn->outline.margin, "the same outline is read again");

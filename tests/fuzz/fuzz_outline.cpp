@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const int flags = bytes.byte();
   const int holes = bytes.byte() % 4;
   const double scale = (flags & 2 ? 1e-9 : 1.0) * (flags & 4 ? 1e9 : 1.0);
-  detail::DrawnLeaf drawn;
+  DrawnLeaf drawn;
   drawn.outline.margin = ring(bytes, bytes.byte() % 48, scale);
   for (int h = 0; h < holes; ++h) drawn.outline.holes.push_back(ring(bytes, bytes.byte() % 8, scale));
   if (flags & 1) drawn.petiole = scale * Vec2(bytes.signed_byte(), bytes.signed_byte());

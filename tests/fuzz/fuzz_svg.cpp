@@ -2,10 +2,12 @@
 // an area.
 #include "fuzz/contract.hpp"
 #include "wilt/import/svg_choice.hpp"
+#include "wilt/import/svg_document.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace wilt;
-  const auto drawing = fuzz::unless_refused([&] { return svg::parse_drawing(fuzz::text_of(data, size)); });
+  const auto drawing =
+      fuzz::unless_refused([&] { return svg::drawing_of(svg::parse_elements(fuzz::text_of(data, size))); });
   if (!drawing) return 0;
   fuzz::require(drawing->mm_per_unit > 0.0, "the scale is positive");
   std::size_t points = 0;

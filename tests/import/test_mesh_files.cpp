@@ -6,6 +6,7 @@
 
 #include "import/files.hpp"
 #include "import/sheets.hpp"
+#include "wilt/import/leaf_in_memory.hpp"
 #include "wilt/mesh/geometry.hpp"
 
 namespace wilt {

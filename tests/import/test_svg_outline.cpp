@@ -3,6 +3,8 @@
 #include <numbers>
 
 #include "import/files.hpp"
+#include "wilt/core/error.hpp"
+#include "wilt/import/leaf_in_memory.hpp"
 #include "wilt/mesh/geometry.hpp"
 
 namespace wilt {
@@ -222,6 +224,26 @@ TEST_F(SvgOutline, TakesNoOtherLettersThanAsciiForWords) {
             std::string::npos);
   EXPECT_GT(drawn_area(read_leaf(write("x.svg", svg(lens("fill='gr\u00fcn'"))), small())), 0.0);
   EXPECT_GT(drawn_area(read_leaf(write("x.svg", svg(lens("fill='url(#gr\u00fcn)'"))), small())), 0.0);
+}
+
+// Oracle: the same drawing as a file. Groups, a style sheet, <use> and the drawing's size count.
+TEST_F(SvgOutline, IsTheSameFromAFileAndFromAListOfElements) {
+  const std::string file =
+      svg("<style>.leaf { fill: #3a5 }</style><defs><ellipse id='e' rx='9' ry='5'/></defs>"
+          "<g transform='scale(3)'><use href='#e' x='60' y='50' class='leaf'/></g>",
+          "viewBox='0 0 400 400' width='80mm' height='80mm'");
+  const std::string list =
+      R"json([[0, "svg", {"viewBox": "0 0 400 400", "width": "80mm", "height": "80mm"}, ""],
+              [1, "style", {}, ".leaf { fill: #3a5 }"],
+              [1, "defs", {}, ""], [2, "ellipse", {"id": "e", "rx": "9", "ry": "5"}, ""],
+              [1, "g", {"transform": "scale(3)"}, ""],
+              [2, "use", {"href": "#e", "x": "60", "y": "50", "class": "leaf"}, ""]])json";
+  const Leaf read = read_leaf(write("e.svg", file), small());
+  const Leaf listed = leaf_from_drawing(drawn_from_elements(list, 1), "e", small());
+  EXPECT_EQ(read.positions, listed.positions);
+  EXPECT_EQ(read.notes, listed.notes);
+  EXPECT_THROW(drawn_from_elements("[[0]]", 1), Error);
+  EXPECT_THROW(drawn_from_elements("[]", 1), Error);
 }
 
 }  // namespace

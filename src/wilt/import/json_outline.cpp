@@ -7,9 +7,9 @@
 #include "wilt/core/error.hpp"
 #include "wilt/core/nearest.hpp"
 #include "wilt/core/printable.hpp"
-#include "wilt/import/drawn_leaf.hpp"
+#include "wilt/import/leaf_in_memory.hpp"
 
-namespace wilt::detail {
+namespace wilt {
 namespace {
 
 using nlohmann::json;
@@ -91,4 +91,4 @@ DrawnLeaf parse_json_outline(std::string_view text) {
   return drawn;
 }
 
-}  // namespace wilt::detail
+}  // namespace wilt

@@ -10,7 +10,23 @@
 namespace wilt::detail {
 namespace {
 
-constexpr int kPhotoVertices = 5000;  // teeth of a grape leaf are some 2 % of its length
+constexpr double kAssumedExtent = 100.0;  // mm across, of a photographed leaf whose scale nobody gave
+constexpr int kPhotoVertices = 5000;      // teeth of a grape leaf are some 2 % of its length
+
+// Of a photo.
+void settle_scale(const ReadOptions& options, DrawnLeaf& drawn) {
+  if (options.mm_per_pixel) {
+    drawn.mm_per_unit = *options.mm_per_pixel;
+    return;
+  }
+  const Points2& margin = drawn.outline.margin;
+  const double extent = (margin.colwise().maxCoeff() - margin.colwise().minCoeff()).maxCoeff();
+  drawn.mm_per_unit = kAssumedExtent / extent;
+  drawn.notes.push_back(
+      fmt::format("the scale is unknown: the leaf is taken to be {:.0f} mm across; give "
+                  "--mm-per-pixel",
+                  kAssumedExtent));
+}
 
 // Where a point of the margin is: `index` is its place among the points, a new one if it lies between two.
 int nearest_margin_point(Points2& margin, const Vec2& wanted) {
@@ -94,6 +110,7 @@ Points2 photo_uv(const Points2& outline_points, const PhotoArea& area) {
 
 Leaf leaf_from_outline(DrawnLeaf drawn, const std::string& name, const ReadOptions& options,
                        const Monitor& monitor) {
+  if (drawn.photo) settle_scale(options, drawn);
   validate_outline(drawn.outline);
   if (options.petiole)
     drawn.petiole = Vec2(options.petiole->x(), drawn.y_down ? -options.petiole->y() : options.petiole->y());

@@ -17,8 +17,6 @@
 namespace wilt::detail {
 namespace {
 
-constexpr double kAssumedExtent = 100.0;  // mm across, of a leaf whose scale nobody gave
-
 Cover cover_of(const Photo& photo, const ReadOptions& options) {
   if (!options.mask.empty()) return cover_of_alpha(read_mask(options.mask, photo));
   if (!photo.alpha.empty() && !options.threshold) return cover_of_alpha(photo.alpha);
@@ -112,20 +110,6 @@ void locate_petiole(const Photo& photo, const ReadOptions& options, PhotoObject&
   drawn.petiole = pixel_of(*petiole, scale);
 }
 
-void settle_scale(const ReadOptions& options, DrawnLeaf& drawn) {
-  if (options.mm_per_pixel) {
-    drawn.mm_per_unit = *options.mm_per_pixel;
-    return;
-  }
-  const Points2& margin = drawn.outline.margin;
-  const double extent = (margin.colwise().maxCoeff() - margin.colwise().minCoeff()).maxCoeff();
-  drawn.mm_per_unit = kAssumedExtent / extent;
-  drawn.notes.push_back(
-      fmt::format("the scale is unknown: the leaf is taken to be {:.0f} mm across; give "
-                  "--mm-per-pixel",
-                  kAssumedExtent));
-}
-
 }  // namespace
 
 int count_photo_leaves(std::string_view bytes, const ReadOptions& options) {
@@ -147,7 +131,6 @@ Leaf leaf_from_photo(std::string_view bytes, const std::string& name, const Read
   monitor.report("photo", 0.6);
   locate_petiole(photo, options, object, drawn);
   drawn.photo = leaf_photo(photo, object);
-  settle_scale(options, drawn);
   monitor.report("photo", 1.0);
   return leaf_from_outline(std::move(drawn), name, options, monitor);
 }

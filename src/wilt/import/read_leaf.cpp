@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <new>
 
 #include "wilt/core/error.hpp"
 #include "wilt/core/file.hpp"
@@ -16,6 +14,7 @@
 #include "wilt/import/mesh_leaf.hpp"
 #include "wilt/import/photo_file.hpp"
 #include "wilt/import/photo_leaf.hpp"
+#include "wilt/import/reading.hpp"
 #include "wilt/import/scan_leaf.hpp"
 #include "wilt/import/scan_points.hpp"
 
@@ -50,11 +49,7 @@ void validate(const ReadOptions& options, const std::string& extension) {
   const bool drawing = extension == ".svg", outline = drawing || extension == ".json";
   const bool photo = is_photo(extension);
   const bool scan = options.scan || is_points_file(extension) || extension == ".ply";
-  if (options.vertices && (*options.vertices < 200 || *options.vertices > 1'000'000))
-    throw Error(ErrorCode::configuration,
-                fmt::format("--vertices {} must be from 200 to 1000000", *options.vertices));
-  if (options.petiole && !options.petiole->allFinite())
-    throw Error(ErrorCode::configuration, "--petiole must be two finite numbers X,Y");
+  detail::validate_size_and_petiole(options);
   if (options.nth < 1)
     throw Error(ErrorCode::configuration, fmt::format("--leaf {} must be 1 or more", options.nth));
   if (options.nth > 1 && !drawing && !photo && !scan)
@@ -105,7 +100,7 @@ Leaf parse(const std::filesystem::path& file, std::string_view bytes, const Read
     return detail::leaf_from_outline(detail::read_svg_outline(bytes, options.nth, monitor), name, options,
                                      monitor);
   if (extension == ".json")
-    return detail::leaf_from_outline(detail::parse_json_outline(bytes), name, options, monitor);
+    return detail::leaf_from_outline(parse_json_outline(bytes), name, options, monitor);
   if (is_photo(extension)) return detail::leaf_from_photo(bytes, name, options, monitor);
   if (is_points_file(extension)) {
     detail::Scan scan;
@@ -127,61 +122,6 @@ Leaf read(const std::filesystem::path& file, const ReadOptions& options, const M
   }
 }
 
-// Runs `read`; the message of what it refuses begins with the file's name.
-template <class Read>
-auto naming(const std::filesystem::path& file, const Read& read) {
-  const std::string name = file.filename().string();
-  try {
-    return read();
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::input || std::string(error.what()).find(name + "'") != std::string::npos)
-      throw;
-    throw Error(ErrorCode::input, fmt::format("'{}': {}", name, error.what()));
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::input,
-                fmt::format("'{}': reading it takes more memory than there is; simplify it", name));
-  }
-}
-
-// Squares and cubes of lengths must be numbers too. Odd lengths within these have their note.
-void check_length(double length, const std::string& name) {
-  constexpr double kLeast = 1e-15, kMost = 1e15;  // metres
-  if (!(length >= kLeast && length <= kMost))
-    throw Error(ErrorCode::input,
-                fmt::format("'{}': the leaf would be {:.3g} m long; {:g} to {:g} are allowed: mend its scale",
-                            name, length, kLeast, kMost));
-}
-
-void check_indices(const MeshArrays& mesh) {
-  const Eigen::Index count = mesh.positions.rows();
-  if (mesh.faces.rows() == 0) throw Error(ErrorCode::input, "there is no face; a leaf needs triangles");
-  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
-    for (const int v : {mesh.faces(f, 0), mesh.faces(f, 1), mesh.faces(f, 2)}) {
-      if (v < 0 || v >= count)
-        throw Error(ErrorCode::input, fmt::format("face {} has vertex {}, but there are {} (counted from 0); "
-                                                  "remove the face",
-                                                  f, v, count));
-    }
-  }
-  if (mesh.uv.rows() != 0 && mesh.uv.rows() != count)
-    throw Error(ErrorCode::input,
-                fmt::format("there are {} texture coordinates for {} positions; give one for "
-                            "each, or none",
-                            mesh.uv.rows(), count));
-  if (mesh.petiole && (*mesh.petiole < 0 || *mesh.petiole >= count))
-    throw Error(ErrorCode::input, fmt::format("the petiole is position {}, but there are {} (counted from 0)",
-                                              *mesh.petiole, count));
-}
-
-detail::TriangleSoup soup_of(const MeshArrays& mesh) {
-  check_indices(mesh);
-  detail::TriangleSoup soup{mesh.positions, mesh.uv, mesh.faces, {}};
-  if (mesh.uv.rows() == 0)
-    soup.uv.setConstant(mesh.positions.rows(), 2, std::numeric_limits<double>::quiet_NaN());
-  if (mesh.petiole) soup.petiole = mesh.positions.row(*mesh.petiole).transpose();
-  return soup;
-}
-
 }  // namespace
 
 const std::vector<std::string>& leaf_file_extensions() {
@@ -198,23 +138,16 @@ Leaf read_leaf(const std::filesystem::path& file, const ReadOptions& options, co
                             extension, did_you_mean(extension, leaf_file_extensions()),
                             joined(leaf_file_extensions())));
   validate(options, extension);
-  Leaf leaf = naming(file, [&] { return read(file, options, monitor); });
-  check_length(leaf_length(leaf), file.filename().string());
+  Leaf leaf = detail::naming(file.filename().string(), [&] { return read(file, options, monitor); });
+  detail::check_length(leaf, file.filename().string());
   for (const std::string& note : leaf.notes) monitor.say(note);
-  return leaf;
-}
-
-Leaf leaf_from_arrays(const MeshArrays& mesh, const std::string& name, const ReadOptions& options,
-                      const Monitor& monitor) {
-  validate(options, ".obj");
-  Leaf leaf = naming(name, [&] { return detail::leaf_from_mesh(soup_of(mesh), name, options, monitor); });
-  check_length(leaf_length(leaf), name);
   return leaf;
 }
 
 int count_leaves(const std::filesystem::path& file, const ReadOptions& options) {
   if (!is_photo(extension_of(file.string()))) return 1;
-  return naming(file, [&] { return detail::count_photo_leaves(bytes_of(file), options); });
+  return detail::naming(file.filename().string(),
+                        [&] { return detail::count_photo_leaves(bytes_of(file), options); });
 }
 
 }  // namespace wilt

@@ -48,19 +48,6 @@ const std::vector<std::string>& leaf_file_extensions();
 Leaf read_leaf(const std::filesystem::path& file, const ReadOptions& options = {},
                const Monitor& monitor = {});
 
-/// Triangles in memory.
-struct MeshArrays {
-  Points3 positions;           ///< #S x 3, metres, Z up; a file's (X, Y, Z), Y up, is (X, -Z, Y) here
-  Faces faces;                 ///< #F x 3, rows of `positions`, counted from 0
-  Points2 uv{};                ///< #S x 2, glTF convention (origin top left); or none
-  std::optional<int> petiole;  ///< the row of `positions` nearest to which the stalk meets the blade's margin
-};
-
-/// The same of triangles in memory, with the checks and repairs of a mesh file, as the leaf `name`. Of the
-/// options, those of a mesh count. Throws Error{input}.
-Leaf leaf_from_arrays(const MeshArrays& mesh, const std::string& name, const ReadOptions& options = {},
-                      const Monitor& monitor = {});
-
 /// How many leaves a photo shows, as `nth` counts them; 1 for every other file. Throws as read_leaf does.
 int count_leaves(const std::filesystem::path& file, const ReadOptions& options = {});
 

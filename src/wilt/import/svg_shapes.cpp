@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <pugixml.hpp>
 #include <set>
 #include <sstream>
 
@@ -47,10 +46,11 @@ std::vector<double> numbers_of(std::string text) {
 
 class Walker {
  public:
-  explicit Walker(const pugi::xml_node& root) : root_(root), styles_(root) {
-    const std::vector<double> box = numbers_of(root.attribute("viewBox").value());
+  explicit Walker(const Elements& elements)
+      : elements_(elements), root_(elements.front()), styles_(elements) {
+    const std::vector<double> box = numbers_of(attribute(root_, "viewBox"));
     if (box.size() == 4 && box[2] > 0 && box[3] > 0) view_box_ = box;
-    page_ = view_box_.empty() ? Vec2(length(root, "width", 0, 100), length(root, "height", 1, 100))
+    page_ = view_box_.empty() ? Vec2(length(root_, "width", 0, 100), length(root_, "height", 1, 100))
                               : Vec2(view_box_[2], view_box_[3]);
   }
 
@@ -65,7 +65,7 @@ class Walker {
     if (view_box_.empty()) return std::nullopt;
     double scale = std::numeric_limits<double>::infinity();
     for (const int axis : {0, 1}) {
-      const auto size = parse_length(root_.attribute(axis == 0 ? "width" : "height").value());
+      const auto size = parse_length(attribute(root_, axis == 0 ? "width" : "height"));
       if (!size || !millimetres(size->unit) || !(size->value > 0)) return std::nullopt;
       scale = std::min(scale, size->value * *millimetres(size->unit) / view_box_[2 + axis]);
     }
@@ -74,8 +74,8 @@ class Walker {
 
  private:
   // A length attribute in user units.
-  double length(const pugi::xml_node& element, const char* name, int axis, double otherwise = 0.0) const {
-    const auto parsed = parse_length(element.attribute(name).value());
+  double length(const Element& element, const char* name, int axis, double otherwise = 0.0) const {
+    const auto parsed = parse_length(attribute(element, name));
     if (!parsed) return otherwise;
     if (parsed->unit == "%")
       return parsed->value / 100 * (axis < 2 ? page_[axis] : page_.norm() / std::sqrt(2));
@@ -83,7 +83,7 @@ class Walker {
     return parsed->value;
   }
 
-  double opacity_property(const pugi::xml_node& element, const char* name, double otherwise) const {
+  double opacity_property(const Element& element, const char* name, double otherwise) const {
     const auto parsed = parse_length(styles_.property(element, name));
     if (!parsed) return otherwise;
     return std::clamp(parsed->unit == "%" ? parsed->value / 100 : parsed->value, 0.0, 1.0);
@@ -92,16 +92,25 @@ class Walker {
   bool is_blur(const std::string& filter) const {
     const std::size_t from = filter.find('#'), to = filter.find_first_of("\"')", from);
     if (filter.rfind("url(", 0) != 0 || from == std::string::npos || to == std::string::npos) return false;
-    const pugi::xml_node node = by_id(filter.substr(from + 1, to - from - 1));
-    return node.find_node([](const pugi::xml_node& n) { return local_name(n) == "feGaussianBlur"; });
+    const Element* node = by_id(filter.substr(from + 1, to - from - 1));
+    if (node == nullptr) return false;
+    for (std::size_t i = place_of(*node) + 1; i < node->end; ++i)
+      if (local_name(elements_[i]) == "feGaussianBlur") return true;
+    return false;
   }
 
-  pugi::xml_node by_id(const std::string& id) const {
-    return root_.find_node([&](const pugi::xml_node& n) { return id == n.attribute("id").value(); });
+  std::size_t place_of(const Element& element) const {
+    return static_cast<std::size_t>(&element - elements_.data());
   }
 
-  State enter(const pugi::xml_node& element, State state) const {
-    const std::string transform = element.attribute("transform").value();
+  const Element* by_id(const std::string& id) const {
+    const auto found = std::find_if(elements_.begin() + 1, elements_.end(),
+                                    [&](const Element& element) { return attribute(element, "id") == id; });
+    return found == elements_.end() ? nullptr : &*found;
+  }
+
+  State enter(const Element& element, State state) const {
+    const std::string transform = attribute(element, "transform");
     if (!transform.empty()) state.transform = state.transform * parse_transform(transform);
     if (const std::string fill = styles_.property(element, "fill"); !fill.empty()) {
       const auto paint = parse_paint(fill);
@@ -117,13 +126,12 @@ class Walker {
     return state;
   }
 
-  void walk_children(const pugi::xml_node& parent, const State& state, int depth) {
-    for (const pugi::xml_node& child : parent.children()) {
-      if (child.type() == pugi::node_element) walk(child, state, depth);
-    }
+  void walk_children(const Element& parent, const State& state, int depth) {
+    for (std::size_t i = place_of(parent) + 1; i < parent.end; i = elements_[i].end)
+      walk(elements_[i], state, depth);
   }
 
-  void walk(const pugi::xml_node& element, const State& inherited, int depth) {
+  void walk(const Element& element, const State& inherited, int depth) {
     static const std::set<std::string> groups{"svg", "g", "a", "switch"};
     if (depth > 200 || styles_.property(element, "display") == "none") return;
     spend(kElementCost);
@@ -131,15 +139,15 @@ class Walker {
     if (groups.count(name) > 0) {
       walk_children(element, placed(element, enter(element, inherited), name == "svg"), depth + 1);
     } else if (name == "use") {
-      const std::string link = element.attribute("href") ? element.attribute("href").value()
-                                                         : element.attribute("xlink:href").value();
-      const pugi::xml_node target = by_id(link.empty() ? link : link.substr(1));
-      if (link.empty() || !target || depth > 20) return;
+      const std::string& plain = attribute(element, "href");
+      const std::string& link = plain.empty() ? attribute(element, "xlink:href") : plain;
+      const Element* target = link.empty() ? nullptr : by_id(link.substr(1));
+      if (target == nullptr || depth > 20) return;
       const State state = placed(element, enter(element, inherited), true);
-      if (local_name(target) == "symbol")
-        walk_children(target, enter(target, state), depth + 10);
+      if (local_name(*target) == "symbol")
+        walk_children(*target, enter(*target, state), depth + 10);
       else
-        walk(target, state, depth + 10);
+        walk(*target, state, depth + 10);
     } else if (const std::string data = path_data(element, name); !data.empty()) {
       spend(data.size());
       const State state = enter(element, inherited);
@@ -158,7 +166,7 @@ class Walker {
               kMostData / 1'000'000));
   }
 
-  State placed(const pugi::xml_node& element, State state, bool moves) const {
+  State placed(const Element& element, State state, bool moves) const {
     if (moves)
       state.transform =
           state.transform * Eigen::Translation2d(length(element, "x", 0), length(element, "y", 1));
@@ -166,10 +174,10 @@ class Walker {
   }
 
   // Every shape as path data; "" for what is none.
-  std::string path_data(const pugi::xml_node& e, const std::string& name) const {
-    if (name == "path") return e.attribute("d").value();
+  std::string path_data(const Element& e, const std::string& name) const {
+    if (name == "path") return attribute(e, "d");
     if (name == "polygon" || name == "polyline") {
-      const std::string points = e.attribute("points").value();
+      const std::string& points = attribute(e, "points");
       return points.empty() ? "" : "M" + points + "Z";
     }
     if (name == "rect") return rectangle(e);
@@ -184,7 +192,7 @@ class Walker {
     return fmt::format("M{0},{2}A{3},{4} 0 0 1 {1},{2}A{3},{4} 0 0 1 {0},{2}Z", x - rx, x + rx, y, rx, ry);
   }
 
-  std::string rectangle(const pugi::xml_node& e) const {
+  std::string rectangle(const Element& e) const {
     const double x = length(e, "x", 0), y = length(e, "y", 1);
     const double w = length(e, "width", 0), h = length(e, "height", 1);
     if (!(w > 0 && h > 0)) return "";
@@ -200,7 +208,8 @@ class Walker {
         x + rx, y, w - 2 * rx, h - 2 * ry, rx, ry, -rx, 2 * rx - w, -ry, 2 * ry - h);
   }
 
-  pugi::xml_node root_;
+  const Elements& elements_;
+  const Element& root_;
   StyleSheet styles_;
   std::vector<double> view_box_;
   Vec2 page_ = Vec2(100, 100);
@@ -210,17 +219,11 @@ class Walker {
 
 }  // namespace
 
-Drawing parse_drawing(std::string_view text) {
-  pugi::xml_document document;
-  const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size(), pugi::parse_default);
-  if (!parsed)
-    throw Error(ErrorCode::input,
-                fmt::format("it cannot be read as SVG: {} at byte {}", parsed.description(), parsed.offset));
-  const pugi::xml_node root = document.document_element();
-  if (local_name(root) != "svg")
-    throw Error(ErrorCode::input,
-                fmt::format("it is no SVG: its root element is <{}>, not <svg>", root.name()));
-  Walker walker(root);
+Drawing drawing_of(const Elements& elements) {
+  if (elements.empty() || local_name(elements.front()) != "svg")
+    throw Error(ErrorCode::input, fmt::format("it is no SVG: its root element is <{}>, not <svg>",
+                                              elements.empty() ? "" : elements.front().name));
+  Walker walker(elements);
   Drawing drawing;
   if (const auto scale = walker.physical_scale()) {
     drawing.mm_per_unit = *scale;

@@ -1,9 +1,9 @@
 // The filled shapes of a drawing. Inside the import room only.
 #pragma once
 
-#include <string_view>
 #include <vector>
 
+#include "wilt/import/svg_element.hpp"
 #include "wilt/import/svg_values.hpp"
 
 namespace wilt::svg {
@@ -24,7 +24,7 @@ struct Drawing {
 
 /// Paths, polygons, rectangles, circles and ellipses with a fill, transforms applied, curves flattened to
 /// 1e-4 of the drawing's size. Fills come from attributes, style, style sheets (by element, class and id)
-/// and groups. Throws Error{input} when it is no SVG.
-Drawing parse_drawing(std::string_view text);
+/// and groups. Throws Error{input} when its root is no SVG.
+Drawing drawing_of(const Elements& elements);
 
 }  // namespace wilt::svg

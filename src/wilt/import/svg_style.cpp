@@ -1,7 +1,5 @@
 #include "wilt/import/svg_style.hpp"
 
-#include <pugixml.hpp>
-
 #include <algorithm>
 #include <sstream>
 
@@ -35,20 +33,9 @@ std::map<std::string, std::string> declarations_of(const std::string& text) {
 
 }  // namespace
 
-std::string local_name(const pugi::xml_node& element) {
-  const std::string name = element.name();
-  return name.rfind("svg:", 0) == 0 ? name.substr(4) : name;
-}
-
-StyleSheet::StyleSheet(const pugi::xml_node& root) {
-  // find_node visits all, however deep, and calls nobody again for a level.
-  root.find_node([this](const pugi::xml_node& node) {
-    if (local_name(node) != "style") return false;
-    std::string css;
-    for (const pugi::xml_node& text : node.children()) css += text.value();
-    add_rules(css);
-    return false;
-  });
+StyleSheet::StyleSheet(const Elements& elements) {
+  for (const Element& element : elements)
+    if (local_name(element) == "style") add_rules(element.text);
   std::stable_sort(rules_.begin(), rules_.end(),
                    [](const Rule& a, const Rule& b) { return a.weight() < b.weight(); });
 }
@@ -76,22 +63,22 @@ void StyleSheet::add_rules(std::string css) {
   }
 }
 
-bool StyleSheet::matches(const Rule& rule, const pugi::xml_node& element) {
+bool StyleSheet::matches(const Rule& rule, const Element& element) {
   if (!rule.element.empty() && rule.element != local_name(element)) return false;
-  if (!rule.id.empty() && rule.id != element.attribute("id").value()) return false;
+  if (!rule.id.empty() && rule.id != attribute(element, "id")) return false;
   if (rule.class_name.empty()) return true;
-  const std::vector<std::string> classes = split(element.attribute("class").value(), ' ');
+  const std::vector<std::string> classes = split(attribute(element, "class"), ' ');
   return std::find(classes.begin(), classes.end(), rule.class_name) != classes.end();
 }
 
-std::string StyleSheet::property(const pugi::xml_node& element, const std::string& name) const {
-  const auto own = declarations_of(element.attribute("style").value());
+std::string StyleSheet::property(const Element& element, const std::string& name) const {
+  const auto own = declarations_of(attribute(element, "style"));
   if (const auto it = own.find(name); it != own.end()) return it->second;
   for (auto rule = rules_.rbegin(); rule != rules_.rend(); ++rule) {
     const auto it = rule->declarations.find(name);
     if (it != rule->declarations.end() && matches(*rule, element)) return it->second;
   }
-  return trimmed(element.attribute(name.c_str()).value());
+  return trimmed(attribute(element, name));
 }
 
 }  // namespace wilt::svg

@@ -5,9 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace pugi {
-class xml_node;
-}
+#include "wilt/import/svg_element.hpp"
 
 namespace wilt::svg {
 
@@ -15,10 +13,10 @@ namespace wilt::svg {
 /// combined selectors are ignored), overridden by its style attribute.
 class StyleSheet {
  public:
-  explicit StyleSheet(const pugi::xml_node& root);
+  explicit StyleSheet(const Elements& elements);
 
   /// "" when the element does not set it.
-  std::string property(const pugi::xml_node& element, const std::string& name) const;
+  std::string property(const Element& element, const std::string& name) const;
 
  private:
   struct Rule {
@@ -27,12 +25,9 @@ class StyleSheet {
     int weight() const { return (id.empty() ? 0 : 100) + (class_name.empty() ? 0 : 10) + !element.empty(); }
   };
   void add_rules(std::string css);
-  static bool matches(const Rule& rule, const pugi::xml_node& element);
+  static bool matches(const Rule& rule, const Element& element);
 
   std::vector<Rule> rules_;
 };
-
-/// The element's name without the prefix "svg:".
-std::string local_name(const pugi::xml_node& element);
 
 }  // namespace wilt::svg

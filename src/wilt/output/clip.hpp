@@ -29,10 +29,7 @@ struct Clip {
 /// The clip of a run: its frames with the colours of their states, veins and configuration. Refers to
 /// `leaf`, `venation` and `frames`, which must have a dryness.
 ///
-/// With C_k the blade's colours at frame k (senescence.hpp), the texture holds the last frame's colour times
-/// m >= 1 per channel, with its fine detail, and COLOR_0 of frame k is C_k / (C_last m): texture x COLOR_0 is
-/// the colour of that frame, and COLOR_0 of the last one is 1 / m throughout. Without a texture
-/// (`texture.size` 0, or texture coordinates that cannot carry one) COLOR_0 is C_k.
+/// Colours, texture and normal map as in leaf_paint.hpp; the texture is of the last frame.
 Clip make_clip(const Leaf& leaf, const Venation& venation, const Config& config,
                const std::vector<Frame>& frames);
 

@@ -148,6 +148,9 @@ Config resolve_config(const std::string& preset, std::string_view toml, std::str
 /// As TOML that apply_toml takes back, with unit and range in comments when `commented`.
 std::string to_toml(const Config& config, bool commented);
 
+/// The same with only the species and what differs from its defaults.
+std::string unusual_toml(const Config& config);
+
 /// As a JSON object {"key": value, ...} in the order of the table, then, if there are any, the changes:
 /// "change": [{"iteration": n, "key": value, ...}, ...].
 std::string to_json(const Config& config);

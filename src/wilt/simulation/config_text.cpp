@@ -249,6 +249,17 @@ std::string to_toml(const Config& config, bool commented) {
   return text + changes_toml(config);
 }
 
+std::string unusual_toml(const Config& config) {
+  const Config usual = default_config(species(config.species));
+  std::string text;
+  for (const Setting& setting : settings()) {
+    const std::string value = toml_value(setting, config);
+    if (setting.key == "species" || value != toml_value(setting, usual))
+      text += fmt::format("{} = {}\n", setting.key, value);
+  }
+  return text + changes_toml(config);
+}
+
 std::string to_json(const Config& config) {
   nlohmann::ordered_json json;
   for (const Setting& setting : settings()) json[setting.key] = json_value(setting, config);

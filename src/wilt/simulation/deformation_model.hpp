@@ -51,6 +51,7 @@ class DeformationModel {
   virtual const Eigen::VectorXd& dry_mass() const = 0;  ///< #V, b
   virtual Eigen::VectorXd pressure_drop() const = 0;    ///< #V, dp = p_out - p
   virtual Eigen::VectorXd dryness() const = 0;          ///< #V, 0 to 1
+  virtual Points3 tip_forces() const = 0;  ///< #tips x 3, the external force at each tip, in Table 2's unit
 
   /// How the petiole carries the blade now: applied to every position in the petiole's frame; the stalk's
   /// centreline after bending (#K x 3, working units; empty without a stalk).

@@ -25,6 +25,7 @@ class PaperModel : public DeformationModel {
   const Eigen::VectorXd& dry_mass() const override { return water_.dry_mass(); }
   Eigen::VectorXd pressure_drop() const override { return water_.pressure_drop(); }
   Eigen::VectorXd dryness() const override { return water_.dryness(); }
+  Points3 tip_forces() const override { return external_.tip_forces(); }
   Hanging hanging() const override;
 
  private:

@@ -13,6 +13,8 @@ export type LeafSource = {
   | { kind: "species"; name: string }
   /** `outline`: the text of wilt's .json outline file. */
   | { kind: "outline"; name: string; outline: string }
+  /** `elements`: those of an SVG, as ../import/drawing.ts lists them; the `nth` largest leaf, from 1. */
+  | { kind: "drawing"; name: string; elements: string; nth: number }
   /** As three.js's loaders give it: a file's own coordinates, Y up; texture coordinates with glTF's origin, top left. */
   | { kind: "mesh"; name: string; positions: Float32Array; faces: Uint32Array; uv?: Float32Array }
   | { kind: "photo"; name: string; photo: CutOut }
@@ -95,7 +97,7 @@ export interface Frame {
   stalkColour: [number, number, number];
   veins: Float32Array; // three per point of the veins
   fields: Record<FieldName, Float32Array>; // magnitudes of forces
-  tipForces: Float32Array; // three per tip: the external force now; Y up, working units
+  tipForces: Float32Array; // three per tip: the external force now; Y up, in the unit of external.forces
   wrinkle: number; // shares of the leaf's length
   curl: number; // degrees
   areaRatio: number;
@@ -131,13 +133,20 @@ export interface VeinEdits {
   removed: number[];
 }
 
+/** JPEGs, the first row at the top (glTF's convention): base colour, sRGB, that multiplies Frame.colours; tangent-space normals. */
+export interface Textures {
+  colour: Uint8Array;
+  normal: Uint8Array;
+}
+
 export type FileKind = "glb" | "forces.csv" | "toml" | "report.json" | "veins.json";
 
 /** The core. Every method rejects with an Error whose message is wilt's own; nothing has changed then. */
 export interface Core {
   /** Makes the leaf, finds its veins and starts a run with the settings of `toml` (the text of a configuration file). */
   load(source: LeafSource, edits: VeinEdits, toml: string): Promise<LeafInfo>;
-  /** Starts again from the leaf at rest; the settings are those of `toml` beside the species' own. */
+  /** Starts again from the leaf at rest; the settings are those of `toml` beside the species' own. The leaf and its veins stay:
+   * vertices, seed and veins.* are for load(). */
   start(toml: string): Promise<Frame>;
   /** The leaf as it is. */
   frame(): Promise<Frame>;
@@ -150,12 +159,15 @@ export interface Core {
   settings(): Promise<Setting[]>;
   /** The configuration in full or only what differs from the species' defaults, changes during the run too. */
   toml(full: boolean): Promise<string>;
-  /** The blade's picture, RGBA, `size` squared, top row first; every Frame from here on has colours to match. Size 0: none. */
-  texture(size: number): Promise<Uint8ClampedArray>;
+  /** Draws the blade's maps, `size` texels a side (0: none); every Frame from here on has colours to match. It takes some
+   * tenths of a second. Nothing where the leaf's texture coordinates carry none. */
+  texture(size: number): Promise<Textures | undefined>;
   /** The bytes of a file about the run up to now. */
   file(kind: FileKind): Promise<Uint8Array>;
   /** Where the outline alone would have the petiole: the index of a point of `margin` (x, y of each, y up). */
   notch(margin: Float64Array): Promise<number>;
+  /** Whether that outline shows a stalk. */
+  hasStalk(margin: Float64Array): Promise<boolean>;
   /** "wilt 0.1.0" and how it was compiled. */
   about(): Promise<string>;
 }

@@ -1,0 +1,45 @@
+// What the page says: errors stay until they are dismissed, hints go by themselves.
+import { element } from "./dom";
+
+export class Messages {
+  private readonly hintBox = element("div", { class: "message", hidden: true }, element("p"));
+  private hintTimer = 0;
+
+  constructor(private readonly box: HTMLElement) {
+    box.append(this.hintBox);
+  }
+
+  error(text: string): void {
+    this.add(text, "error");
+  }
+
+  tell(text: string): void {
+    this.add(text, "note");
+  }
+
+  hint(text: string): void {
+    this.hintBox.firstElementChild!.textContent = text;
+    this.hintBox.hidden = false;
+    clearTimeout(this.hintTimer);
+    this.hintTimer = window.setTimeout(() => (this.hintBox.hidden = true), 4000);
+  }
+
+  /** A message with what is being done, taken away by the function that is returned. */
+  progress(text: string): () => void {
+    const message = element("div", { class: "message" }, element("p", {}, text));
+    this.box.append(message);
+    return () => message.remove();
+  }
+
+  private add(text: string, kind: string): void {
+    for (const old of [...this.box.children]) if (old.querySelector("p")?.textContent === text && old !== this.hintBox) old.remove();
+    const message: HTMLElement = element(
+      "div",
+      { class: `message ${kind}`, role: kind === "error" ? "alert" : undefined },
+      element("p", {}, text),
+      element("button", { class: "small", "aria-label": "Dismiss", click: () => message.remove() }, "✕"),
+    );
+    this.box.append(message);
+    while (this.box.children.length > 5) this.box.children[1]!.remove();
+  }
+}

@@ -1,0 +1,232 @@
+// The scene: one leaf or two side by side on a plain ground, a camera that goes around them, the light.
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { Emitter } from "../emitter";
+import type { LeafInfo, Textures } from "../core/protocol";
+import { environment } from "./environment";
+import { VIEWS, direction, framed } from "./framing";
+import { LeafModel, type Look, type Moment } from "./leaf_model";
+
+const kSlow = 45; // ms between pictures
+const kLevels = [
+  { pixels: 1, shadow: 1024, soft: true },
+  { pixels: 0.75, shadow: 1024, soft: false },
+  { pixels: 0.5, shadow: 512, soft: false },
+];
+const kBetween = 1.25; // leaf lengths between two leaves that are compared
+
+export class Stage {
+  readonly events = new Emitter<{ drawn: void; viewed: void }>();
+  readonly models: (LeafModel | undefined)[] = [];
+  readonly renderer: THREE.WebGLRenderer;
+  readonly scene = new THREE.Scene();
+  readonly camera = new THREE.PerspectiveCamera(28, 1, 0.02, 60);
+  readonly controls: OrbitControls;
+  private readonly key = new THREE.DirectionalLight("#fff4e4", 2.4);
+  private dirty = true;
+  private following = true; // the camera is where a named view put it
+  private view = 0;
+  private level = 0;
+  private intervals: number[] = [];
+  private verySlow = 0;
+  private lastDrawn = 0;
+  private detail = Math.min(devicePixelRatio, 2);
+
+  /** Throws where the browser has no WebGL 2. */
+  constructor(readonly canvas: HTMLCanvasElement) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: false });
+    this.renderer.toneMapping = THREE.NeutralToneMapping;
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.VSMShadowMap;
+    this.scene.environment = environment(this.renderer);
+    this.scene.environmentIntensity = 0.75;
+    this.scene.add(this.keyLight(), this.ground());
+    this.controls = new OrbitControls(this.camera, canvas);
+    Object.assign(this.controls, { enableDamping: true, dampingFactor: 0.12, minDistance: 0.3, maxDistance: 12 });
+    this.controls.addEventListener("change", () => this.invalidate());
+    this.controls.addEventListener("start", () => (this.following = false));
+    this.controls.addEventListener("end", () => this.events.emit("viewed", undefined));
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
+    this.resize();
+  }
+
+  setLeaf(side: number, info: LeafInfo | undefined): void {
+    const old = this.models[side];
+    if (old) {
+      this.scene.remove(old.group);
+      old.dispose();
+    }
+    this.models[side] = info && new LeafModel(info);
+    if (this.models[side]) this.scene.add(this.models[side].group);
+    this.models.forEach((model, i) => {
+      if (model) model.group.position.x = this.models[1] ? (i - 0.5) * kBetween : 0;
+    });
+    this.invalidate();
+  }
+
+  async setTextures(side: number, textures: Textures | undefined): Promise<void> {
+    await this.models[side]?.setTextures(textures);
+    this.invalidate();
+  }
+
+  show(side: number, moment: Moment, look: Look): void {
+    this.models[side]?.show(moment, look);
+    this.invalidate();
+  }
+
+  /** The next draw() draws. */
+  invalidate(): void {
+    this.dirty = true;
+  }
+
+  /** Once per picture of the screen. */
+  draw(): void {
+    this.controls.update();
+    if (!this.dirty) return;
+    this.dirty = false;
+    this.renderer.render(this.scene, this.camera);
+    this.keepUp(performance.now());
+    this.events.emit("drawn", undefined);
+  }
+
+  get viewIndex(): number {
+    return this.view;
+  }
+
+  /** Puts the camera where a named view has it, so that the whole leaf is seen. */
+  setView(index: number): void {
+    this.view = index;
+    this.following = true;
+    this.frame(direction(VIEWS[index]!));
+    this.events.emit("viewed", undefined);
+  }
+
+  /** Shows all of the leaf from where the camera is. */
+  fit(): void {
+    this.frame(this.camera.position.clone().sub(this.controls.target).normalize());
+    this.events.emit("viewed", undefined);
+  }
+
+  /** The camera as six numbers: where it is, what it looks at. */
+  get cameraState(): number[] {
+    return [...this.camera.position.toArray(), ...this.controls.target.toArray()];
+  }
+
+  set cameraState(state: number[]) {
+    this.following = false;
+    this.camera.position.fromArray(state);
+    this.controls.target.fromArray(state, 3);
+    this.controls.update();
+    this.invalidate();
+  }
+
+  get isNamedView(): boolean {
+    return this.following;
+  }
+
+  /** Where a point of the scene is on the canvas, CSS pixels; z below 1: before the far plane. */
+  project(point: THREE.Vector3): THREE.Vector3 {
+    const { clientWidth, clientHeight } = this.canvas;
+    const p = point.clone().project(this.camera);
+    return p.set(((p.x + 1) / 2) * clientWidth, ((1 - p.y) / 2) * clientHeight, p.z);
+  }
+
+  /** A picture of the scene in any size, drawn now; the stage's own size comes back with the next draw. */
+  picture(width: number, height: number): HTMLCanvasElement {
+    const aspect = this.camera.aspect;
+    this.renderer.setPixelRatio(1);
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.renderer.render(this.scene, this.camera);
+    const copy = document.createElement("canvas");
+    copy.width = width;
+    copy.height = height;
+    const context = copy.getContext("2d")!;
+    const style = getComputedStyle(this.canvas.parentElement!);
+    const fill = context.createRadialGradient(width / 2, height * 0.4, 0, width / 2, height * 0.4, Math.hypot(width, height) * 0.6);
+    fill.addColorStop(0, style.getPropertyValue("--stage-centre"));
+    fill.addColorStop(1, style.getPropertyValue("--stage-edge"));
+    context.fillStyle = fill;
+    context.fillRect(0, 0, width, height);
+    context.drawImage(this.canvas, 0, 0);
+    this.camera.aspect = aspect;
+    this.resize();
+    return copy;
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.canvas.parentElement!;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.renderer.setPixelRatio(this.detail);
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.camera.aspect = clientWidth / clientHeight;
+    this.camera.updateProjectionMatrix();
+    if (this.following) this.frame(direction(VIEWS[this.view]!));
+    this.dirty = true;
+    this.draw();
+  }
+
+  private frame(towards: THREE.Vector3): void {
+    const points = this.models.flatMap((model) => {
+      if (!model) return [];
+      model.group.updateMatrixWorld();
+      return model.outlinePoints();
+    });
+    if (points.length === 0) points.push(new THREE.Vector3(-0.5, 0, -1), new THREE.Vector3(0.5, 0.2, 0.2));
+    const { position, target } = framed(this.camera, points, towards);
+    this.camera.position.copy(position);
+    this.controls.target.copy(target);
+    this.controls.update();
+    this.invalidate();
+  }
+
+  private keyLight(): THREE.DirectionalLight {
+    const key = this.key;
+    key.position.set(-2.2, 4, -0.6);
+    key.castShadow = true;
+    key.shadow.mapSize.set(1024, 1024);
+    Object.assign(key.shadow.camera, { left: -2.2, right: 2.2, top: 2.2, bottom: -2.2, near: 0.5, far: 9 });
+    key.shadow.radius = 5;
+    key.shadow.blurSamples = 12;
+    key.shadow.bias = -0.0006;
+    key.shadow.normalBias = 0.012;
+    return key;
+  }
+
+  private ground(): THREE.Object3D {
+    const ground = new THREE.Mesh(new THREE.CircleGeometry(8, 48), new THREE.ShadowMaterial({ opacity: 0.3, color: "#1b2740" }));
+    ground.rotation.x = -Math.PI / 2;
+    ground.position.y = -0.002;
+    ground.receiveShadow = true;
+    return ground;
+  }
+
+  /** Fewer pixels and plainer shadows where pictures take too long: a median of `kSlow` over some that follow each other. */
+  private keepUp(now: number): void {
+    const since = now - this.lastDrawn;
+    this.lastDrawn = now;
+    if (since < 500) this.intervals.push(since);
+    if (since >= 500) ++this.verySlow;
+    if (this.intervals.length + this.verySlow < 6) return;
+    const median = this.verySlow > 2 ? 500 : this.intervals.sort((a, b) => a - b)[this.intervals.length >> 1]!;
+    this.intervals = [];
+    this.verySlow = 0;
+    if (median < kSlow || this.level === kLevels.length - 1) return;
+    this.setLevel(this.level + 1);
+  }
+
+  private setLevel(level: number): void {
+    this.level = level;
+    const { pixels, shadow, soft } = kLevels[level]!;
+    this.key.shadow.map?.dispose();
+    this.key.shadow.map = null;
+    this.key.shadow.mapSize.set(shadow, shadow);
+    this.renderer.shadowMap.type = soft ? THREE.VSMShadowMap : THREE.PCFShadowMap;
+    this.scene.traverse((part) => {
+      if (part instanceof THREE.Mesh) (part.material as THREE.Material).needsUpdate = true;
+    });
+    this.detail = Math.min(devicePixelRatio, 2) * pixels;
+    this.resize();
+  }
+}
