@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "leaf_source.hpp"
+#include "petiole_places.hpp"
 #include "values.hpp"
 #include "wilt/core/version.hpp"
 #include "wilt/leaf/petiole.hpp"
@@ -97,7 +98,7 @@ val tips_value(const StudioSession& session, const LiveLeaf& live) {
   return tips;
 }
 
-val info_value(const StudioSession& session) {
+val info_value(const StudioSession& session, const val& source) {
   const LiveLeaf live = live_leaf(session);
   const Leaf& leaf = session.leaf();
   const MarginProfile& profile = session.venation().margin;
@@ -124,6 +125,7 @@ val info_value(const StudioSession& session) {
   margin.set("s", typed(std::vector<float>(profile.s.begin(), profile.s.end())));
   margin.set("d", typed(std::vector<float>(profile.d.begin(), profile.d.end())));
   margin.set("perimeter", profile.perimeter);
+  margin.set("place", typed(petiole_places(source, leaf, profile)));
   info.set("margin", margin);
   info.set("veinStart", typed(live.vein_start));
   info.set("veinOrder", typed(live.vein_order));
@@ -140,7 +142,7 @@ class Studio {
       auto fresh = std::make_unique<StudioSession>(leaf_of(source), vein_edits, preset_of(source),
                                                    given_with(source), toml);
       session_ = std::move(fresh);
-      return info_value(*session_);
+      return info_value(*session_, source);
     });
   }
   val start(const std::string& toml) {

@@ -14,6 +14,7 @@ namespace wilt::web {
 namespace {
 
 constexpr int kUsualVertices = 2000;  // of a species
+constexpr double kMetres = 0.001;     // a species' petiole is given in millimetres
 
 int whole(const val& object, const char* key) {
   return static_cast<int>(object[key].as<double>());
@@ -47,15 +48,6 @@ Matrix rows_of(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, columns, Eigen::RowMajor>>(
              values.data(), static_cast<Eigen::Index>(values.size()) / columns, columns)
       .template cast<typename Matrix::Scalar>();
-}
-
-Leaf species_leaf(const val& source) {
-  const int asked = whole(source, "vertices");
-  Leaf leaf = make_leaf(text(source, "name"), asked == 0 ? kUsualVertices : asked,
-                        static_cast<std::uint64_t>(source["seed"].as<double>()));
-  const std::optional<Vec2> petiole = optional_point(source, "petiole");
-  if (petiole) throw Error(ErrorCode::configuration, "--petiole goes with a file");
-  return leaf;
 }
 
 // (X, Y, Z) of a file, Y up, is (X, -Z, Y) here.
@@ -113,9 +105,18 @@ Points2 points2(const val& array) {
   return rows_of<Points2>(values);
 }
 
+Leaf species_leaf(const val& source) {
+  const int asked = whole(source, "vertices");
+  return make_leaf(text(source, "name"), asked == 0 ? kUsualVertices : asked,
+                   static_cast<std::uint64_t>(source["seed"].as<double>()));
+}
+
 Leaf leaf_of(const val& source) {
   const std::string kind = text(source, "kind");
-  if (kind == "species") return species_leaf(source);
+  if (kind == "species") {
+    const std::optional<Vec2> petiole = optional_point(source, "petiole");
+    return petiole ? with_petiole(species_leaf(source), kMetres * *petiole) : species_leaf(source);
+  }
   if (kind == "mesh") return mesh_leaf(source);
   const std::string name = text(source, "name");
   if (kind == "outline")

@@ -13,6 +13,9 @@ namespace wilt::web {
 /// Makes it. Throws as make_leaf(), leaf_from_arrays() and leaf_from_drawing() do.
 Leaf leaf_of(const val& source);
 
+/// The leaf of a species, its petiole where it grows.
+Leaf species_leaf(const val& source);
+
 /// The species whose settings hold for it.
 std::string preset_of(const val& source);
 

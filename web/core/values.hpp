@@ -17,6 +17,9 @@ using emscripten::val;
 inline const char* array_type(float) {
   return "Float32Array";
 }
+inline const char* array_type(double) {
+  return "Float64Array";
+}
 inline const char* array_type(std::uint32_t) {
   return "Uint32Array";
 }

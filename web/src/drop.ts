@@ -3,20 +3,24 @@ import type { App } from "./app";
 import { emptyConfig } from "./config";
 import { byId } from "./dom";
 
-async function open(app: App, file: File): Promise<void> {
-  const done = app.messages.progress(`Reading ${file.name} ...`);
+async function open(app: App, file: File, nth = 1): Promise<void> {
+  const progress = app.messages.progress(`Reading ${file.name} ...`);
   try {
     const { readLeafFile } = await import("./import/read_leaf");
-    const { source, notes, leaves } = await readLeafFile(file, app.active.core);
-    const there = await app.load({ source, edits: { added: [], removed: [] }, config: emptyConfig() }, `opening ${file.name}`);
-    if (!there) return;
+    const said = (share: number, what: string) => progress.say(`${file.name}: ${what}, ${Math.round(100 * share)} %`);
+    const { source, notes, leaves = 1 } = await readLeafFile(file, app.active.core, said, { nth });
+    const recipe = { source, edits: { added: [], removed: [] }, config: emptyConfig() };
+    if (!(await app.load(recipe, `opening ${file.name}`))) return;
     for (const note of notes) app.messages.tell(note);
-    if (leaves && leaves > 1) app.messages.tell(`The picture shows ${leaves} leaves; this is the largest`);
+    if (leaves > 1) {
+      const next = (nth % leaves) + 1;
+      app.messages.offer(`The picture shows ${leaves} leaves; this is number ${nth} by size.`, `Take number ${next}`, () => void open(app, file, next));
+    }
     app.playback.play();
   } catch (error) {
-    app.messages.error(`${file.name}: ${(error as Error).message}`);
+    app.messages.error((error as Error).message);
   } finally {
-    done();
+    progress.close();
   }
 }
 

@@ -41,8 +41,9 @@ export function paintField(out: Float32Array, a: Float32Array, b: Float32Array, 
   }
 }
 
-/** The range of a field in a frame; forces begin at 0. */
+/** The range of a field in a frame. */
 export function fieldRange(frame: Frame, field: FieldName): Range {
+  if (field === "dryness") return { min: 0, max: 1 };
   let min = Infinity;
   let max = -Infinity;
   for (const value of frame.fields[field]) {

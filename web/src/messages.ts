@@ -24,14 +24,26 @@ export class Messages {
     this.hintTimer = window.setTimeout(() => (this.hintBox.hidden = true), 4000);
   }
 
-  /** A message with what is being done, taken away by the function that is returned. */
-  progress(text: string): () => void {
-    const message = element("div", { class: "message" }, element("p", {}, text));
+  /** A message with what is being done, which can be said anew, until it is closed. */
+  progress(text: string): { say: (text: string) => void; close: () => void } {
+    const said = element("p", {}, text);
+    const message = element("div", { class: "message" }, said);
     this.box.append(message);
-    return () => message.remove();
+    return { say: (next) => (said.textContent = next), close: () => message.remove() };
   }
 
-  private add(text: string, kind: string): void {
+  /** A choice beside a message. */
+  offer(text: string, action: string, run: () => void): void {
+    const button = element("button", { class: "small" }, action);
+    const message = this.add(text, "note");
+    message.insertBefore(button, message.lastElementChild);
+    button.addEventListener("click", () => {
+      message.remove();
+      run();
+    });
+  }
+
+  private add(text: string, kind: string): HTMLElement {
     for (const old of [...this.box.children]) if (old.querySelector("p")?.textContent === text && old !== this.hintBox) old.remove();
     const message: HTMLElement = element(
       "div",
@@ -41,5 +53,6 @@ export class Messages {
     );
     this.box.append(message);
     while (this.box.children.length > 5) this.box.children[1]!.remove();
+    return message;
   }
 }

@@ -34,9 +34,6 @@ export class Session {
   textures: Textures | undefined;
   frames: Frame[] = []; // by iteration; the first is the leaf at rest
   busy = "";
-  /** By vertex of the mesh: what LeafSource.petiole would be there, x and y; known for species. */
-  private places = new Map<number, [number, number]>();
-  private placesOf = "";
   /** Texels a side of the blade's picture. */
   textureSize = 1024;
 
@@ -90,7 +87,6 @@ export class Session {
       const info = await this.core.load(source, edits, configToml(config));
       const settings = await this.core.settings();
       const first = await this.core.frame();
-      this.rememberPlaces(source, info, first);
       Object.assign(this, { source, edits, config, info, textures: undefined });
       this.settings = new Map(settings.map((setting) => [setting.key, setting]));
       this.begin([first]);
@@ -182,25 +178,8 @@ export class Session {
     return result;
   }
 
-  /** What LeafSource.petiole would be at a place of the margin; unknown for leaves of files. */
-  petioleAt(place: number): [number, number] | undefined {
-    return this.info && this.places.get(this.info.vertex[this.info.margin.point[place]!]!);
-  }
-
   close(): void {
     this.worker.terminate();
-  }
-
-  /** A species' petiole is given in millimetres of the leaf as it grows, petiole at the origin; that is its first frame. */
-  private rememberPlaces(source: LeafSource, info: LeafInfo, rest: Frame): void {
-    const leaf = `${source.kind} ${source.name} ${source.seed} ${source.vertices}`;
-    if (leaf === this.placesOf && source.petiole) return;
-    this.places.clear();
-    this.placesOf = leaf;
-    if (source.kind !== "species" || source.petiole) return;
-    for (const point of info.margin.point) {
-      this.places.set(info.vertex[point]!, [1000 * rest.positions[3 * point]!, -1000 * rest.positions[3 * point + 2]!]);
-    }
   }
 
   private begin(frames: Frame[]): void {

@@ -1,9 +1,10 @@
 // What the page is doing, as plain data: for tests.
 import type { App } from "./app";
-import { configToml } from "./config";
+import { configToml, valueAt } from "./config";
 import type { Session } from "./session";
 
-function sessionState(session: Session) {
+/** Settings as they are after iteration `at`. */
+function sessionState(session: Session, at: number) {
   const { info, source, edits, config, frames } = session;
   return {
     leaf: info && { name: info.name, species: info.species, vertices: info.vertices, length: info.length, tips: info.tips.length, notes: info.notes },
@@ -11,7 +12,7 @@ function sessionState(session: Session) {
     edits,
     config: configToml(config),
     changes: config.changes,
-    settings: Object.fromEntries([...session.settings.keys()].map((key) => [key, session.setting(key)])),
+    settings: Object.fromEntries([...session.settings].map(([key, setting]) => [key, valueAt(config, setting, at)])),
     frames: frames.length,
     head: session.head,
     ended: session.ended,
@@ -23,8 +24,8 @@ function sessionState(session: Session) {
 export function appState(app: App) {
   const { playback, stage, shown } = app;
   return {
-    ...sessionState(app.active),
-    sides: app.sessions.map(sessionState),
+    ...sessionState(app.active, playback.shown),
+    sides: app.sessions.map((session) => sessionState(session, playback.shown)),
     active: app.sessions.indexOf(app.active),
     playing: playback.playing,
     playhead: playback.playhead,

@@ -30,7 +30,7 @@ export function showWithoutCore(): void {
     <p>The same at a terminal:</p>
     <pre>wilt simulate maple -o maple.glb -o maple.png</pre>
     <p>What it looks like:</p>
-    <p><img alt="A maple leaf, fresh, turning, dry" src="stages.webp" width="960" height="240" /></p>`;
+    <p><img alt="A maple leaf, fresh, turning, dry" src="stages.webp" width="1120" height="214" /></p>`;
   document.getElementById("stage")!.replaceChildren(box);
   document.getElementById("transport")!.hidden = true;
   document.getElementById("panel")!.hidden = true;

@@ -63,7 +63,14 @@ export interface LeafInfo {
   petiolePoint: number;
   tips: Tip[];
   /** The margin profile, clockwise from the petiole: the paper's Fig. 2c. */
-  margin: { point: Uint32Array; s: Float32Array; d: Float32Array; perimeter: number };
+  margin: {
+    point: Uint32Array;
+    s: Float32Array;
+    d: Float32Array;
+    perimeter: number;
+    /** x, y of each as LeafSource.petiole takes it, whether or not the petiole has been moved. */
+    place: Float64Array;
+  };
   /** Where each vein begins in Frame.veins (in points), and one more for the end; 1: primary, 2: secondary. */
   veinStart: Uint32Array;
   veinOrder: Uint8Array;

@@ -11,7 +11,7 @@ function fileName(app: App, extension: string): string {
 
 /** All of the run, where it has not been computed to its end. */
 async function finish(app: App): Promise<void> {
-  const done = app.messages.progress("Computing the rest of the run ...");
+  const progress = app.messages.progress("Computing the rest of the run ...");
   try {
     for (const session of app.sessions) {
       while (!session.ended && session.head < session.iterations) {
@@ -20,7 +20,7 @@ async function finish(app: App): Promise<void> {
       }
     }
   } finally {
-    done();
+    progress.close();
   }
 }
 
@@ -35,13 +35,13 @@ const kNamesOf: Partial<Record<FileKind, string>> = { toml: "run.toml", "veins.j
 
 async function exportFile(app: App, kind: FileKind): Promise<void> {
   if (kind === "glb" || kind === "forces.csv" || kind === "report.json") await finish(app);
-  const done = app.messages.progress(`Writing ${kind} ...`);
+  const progress = app.messages.progress(`Writing ${kind} ...`);
   try {
     const bytes = await app.active.exclusive("", () => app.active.core.file(kind));
     download(kNamesOf[kind] ?? fileName(app, kind), bytes as BlobPart, kTypes[kind]);
     if (kind === "toml" || kind === "glb") sayCommand(app);
   } finally {
-    done();
+    progress.close();
   }
 }
 
@@ -88,7 +88,7 @@ async function exportFilm(app: App): Promise<void> {
   byId("messages").append(box);
   const shownBefore = playback.playhead;
   const aspect = stage.canvas.clientWidth / stage.canvas.clientHeight;
-  const height = 2 * Math.round(Math.min(1080, 1920 / aspect) / 2);
+  const height = 2 * Math.round((Math.min(1080, 1920 / aspect) * stage.pixelShare) / 2);
   const width = 2 * Math.round((height * aspect) / 2);
   const rate = 30;
   const seconds = (Number(app.active.setting("clip.seconds", 4)) * playback.iterations) / 100;

@@ -44,13 +44,13 @@ function tipRow(app: App, index: number): HTMLElement {
       },
     }),
   );
-  for (const input of axes) input.style.width = "5.2em";
+  for (const input of axes) input.style.width = "4.4em";
   const row: HTMLElement = element(
     "li",
     { pointerenter: () => app.light(placeAt(app.active.info!, tip.s)), pointerleave: () => app.light(-1) },
     element("strong", {}, name),
     ...axes,
-    element("button", { class: "small", "aria-label": `Remove ${name}`, click: () => removeTip(app, tip) }, "Remove"),
+    element("button", { class: "small", "aria-label": `Remove ${name}`, title: `Remove ${name}`, click: () => removeTip(app, tip) }, "✕"),
   );
   return row;
 }

@@ -49,8 +49,7 @@ function options(app: App, spec: PlotSpec, width: number): uPlot.Options {
   return {
     width,
     height: 150,
-    title: "",
-    legend: { show: spec.lines.length > 1 },
+    legend: { show: spec.lines.length > 1, live: false },
     scales: { x: { time: false, range: () => [0, app.playback.iterations] } },
     axes: [axis, { ...axis, size: 52 }],
     cursor: { drag: { x: false, y: false }, points: { size: 6 } },

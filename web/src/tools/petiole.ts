@@ -8,8 +8,9 @@ import type { Tool } from "./tool";
 /** Joins the stalk to a place of the margin: the veins are found anew, edits of them are forgotten. */
 export async function movePetiole(app: App, place: number): Promise<void> {
   const session = app.active;
-  const petiole = session.petioleAt(place);
-  if (!petiole) return app.messages.error("The petiole of this leaf cannot be moved here; `wilt simulate FILE --petiole X,Y` can");
+  if (!session.info) return;
+  const { place: places } = session.info.margin;
+  const petiole: [number, number] = [places[2 * place]!, places[2 * place + 1]!];
   const recipe = {
     source: { ...session.source, petiole },
     edits: { added: [], removed: [] },

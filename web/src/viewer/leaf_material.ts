@@ -43,6 +43,7 @@ export function leafMaterial(): THREE.MeshPhysicalMaterial {
 export function mapMaterial(): THREE.MeshLambertMaterial {
   return new THREE.MeshLambertMaterial({
     vertexColors: true,
+    toneMapped: false,
     side: THREE.DoubleSide,
     polygonOffset: true,
     polygonOffsetFactor: 1,

@@ -9,9 +9,9 @@ import { LeafModel, type Look, type Moment } from "./leaf_model";
 
 const kSlow = 45; // ms between pictures
 const kLevels = [
-  { pixels: 1, shadow: 1024, soft: true },
-  { pixels: 0.75, shadow: 1024, soft: false },
-  { pixels: 0.5, shadow: 512, soft: false },
+  { pixels: 1, shadow: 1024, blur: 12 },
+  { pixels: 0.75, shadow: 512, blur: 6 },
+  { pixels: 0.5, shadow: 256, blur: 4 },
 ];
 const kBetween = 1.25; // leaf lengths between two leaves that are compared
 
@@ -121,6 +121,11 @@ export class Stage {
     this.invalidate();
   }
 
+  /** 1, or the share of the pixels' side that this machine draws quickly. */
+  get pixelShare(): number {
+    return kLevels[this.level]!.pixels;
+  }
+
   get isNamedView(): boolean {
     return this.following;
   }
@@ -224,14 +229,11 @@ export class Stage {
 
   private setLevel(level: number): void {
     this.level = level;
-    const { pixels, shadow, soft } = kLevels[level]!;
+    const { pixels, shadow, blur } = kLevels[level]!;
     this.key.shadow.map?.dispose();
     this.key.shadow.map = null;
     this.key.shadow.mapSize.set(shadow, shadow);
-    this.renderer.shadowMap.type = soft ? THREE.VSMShadowMap : THREE.PCFShadowMap;
-    this.scene.traverse((part) => {
-      if (part instanceof THREE.Mesh) (part.material as THREE.Material).needsUpdate = true;
-    });
+    this.key.shadow.blurSamples = blur;
     this.detail = Math.min(devicePixelRatio, 2) * pixels;
     this.resize();
   }
