@@ -167,9 +167,9 @@ TEST(Config, NamesTheLineOfAWrongChange) {
   EXPECT_TRUE(contains(refusal("[[change]]\niteration = -1\nwater.humidity = 1"), "iteration 0 to 1000000"));
   EXPECT_TRUE(contains(refusal("[[change]]\niteration = 2000000\nwater.humidity = 1"), "0 to 1000000"));
   EXPECT_TRUE(contains(refusal("[[change]]\niteration = 0.5\nwater.humidity = 1"), "line 2: iteration must"));
-  EXPECT_TRUE(contains(refusal("[[change]]\nwater.humidity = 1"), "line 2: a [[change]] says"));
+  EXPECT_TRUE(contains(refusal("[[change]]\nwater.humidity = 1"), "line 2: a [[change]] has no iteration"));
   EXPECT_TRUE(contains(refusal("[change]\niteration = 1"), "[[change]]"));
-  EXPECT_TRUE(contains(refusal("change = [1]"), "line 2: changes are sections"));
+  EXPECT_TRUE(contains(refusal("change = [1]"), "line 2: change takes sections"));
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ TEST(LiveFrame, SaysTheForcesAtTipsInTheUnitOfTable2) {
   // fout = fout_0 (1 + growth t): docs/method.md; the first force of every tip of "a" points up the most.
   for (const std::string model : {"cell", "paper"}) {
     StudioSession session = maple(kShort + "external.growth = 0.5\nexternal.forces = [" +
-                                  std::string("0,0,.1, 0,.1,0, .1,0,0, 0,0,0, 0,0,0, 0,0,0, 0,0,-.2") +
+                                  std::string("0,0,0.1, 0,0.1,0, 0.1,0,0, 0,0,0, 0,0,0, 0,0,0, 0,0,-0.2") +
                                   "]\nmodel = \"" + model + "\"\n");
     step_to(session, 2);
     const LiveFrame frame = live_frame(session);

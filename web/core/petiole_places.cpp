@@ -55,8 +55,8 @@ std::vector<double> petiole_places(const val& source, const Leaf& leaf, const Ma
   const Points2 places = places_of(source, leaf);
   std::vector<double> flat;
   for (const VertexId v : margin.vertices) {
-    flat.push_back(places(v, 0));
-    flat.push_back(places(v, 1));
+    flat.push_back(places(int(v), 0));
+    flat.push_back(places(int(v), 1));
   }
   return flat;
 }

@@ -171,8 +171,8 @@ void add_change(Config& config, std::int64_t iteration, std::string_view key, st
   const Setting& setting = detail::find_setting(key);
   if (!setting.during_run)
     fail(
-        fmt::format("{} cannot change in a run; `wilt simulate --print-config --json` says which settings "
-                    "can (during_run)",
+        fmt::format("{} cannot change in a run; give it for the whole run (`wilt simulate --print-config "
+                    "--json` marks those that can: during_run)",
                     key));
   if (iteration < 0 || iteration > kLastIteration)
     fail(fmt::format("a change comes after iteration 0 to {}, not {}", kLastIteration, iteration));

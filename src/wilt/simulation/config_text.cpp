@@ -89,7 +89,7 @@ void for_each_value(const toml::table& table, const std::string& prefix, std::st
 
 std::int64_t iteration_of(const toml::table& section) {
   const toml::node* node = section.get("iteration");
-  if (node == nullptr) fail("a [[change]] says after which iteration: iteration = 40");
+  if (node == nullptr) fail("a [[change]] has no iteration; add a line like iteration = 40");
   if (!node->is_integer()) fail("iteration must be a whole number");
   return *node->value<std::int64_t>();
 }
@@ -110,7 +110,7 @@ void apply_changes(Config& config, const toml::node& node, std::string_view sour
   const auto is_table = [](const toml::node& section) { return section.is_table(); };
   at_line(node, source, [&] {
     if (sections == nullptr || !std::all_of(sections->begin(), sections->end(), is_table))
-      fail("changes are sections that begin with [[change]]");
+      fail("change takes sections that begin with [[change]]");
   });
   for (const toml::node& section : *sections) apply_change(config, *section.as_table(), source);
 }

@@ -11,6 +11,8 @@ export const LEAF_FILE_TYPES = ".obj,.ply,.stl,.glb,.gltf,.svg,.json,.png,.jpg,.
 
 export interface LeafFile {
   source: LeafSource;
+  /** The file's name: what `wilt simulate` is given for the same leaf. */
+  file: string;
   /** What was found, left out or assumed in reading. */
   notes: string[];
   /** How many leaves a photo shows, and which of them this is, from 1. */
@@ -73,25 +75,20 @@ async function read(
   core: Core,
   progress: Progress,
   options: ReadOptions,
-) {
-  const name = file.name.replace(/\.[^.]*$/, "");
+): Promise<LeafFile> {
   const nth = options.nth ?? 1;
-  const common = { seed: 1, vertices: 0, name };
+  const found = { file: file.name, notes: [], nth };
+  const usual = { seed: 1, vertices: 0, name: file.name.replace(/\.[^.]*$/, "") };
   const text = () => new TextDecoder().decode(bytes);
-  if (kind === "outline")
-    return { source: { ...common, kind, outline: text() }, notes: [], nth: 1 } satisfies LeafFile;
+  if (kind === "outline") return { ...found, source: { ...usual, kind, outline: text() } };
   if (kind === "svg")
-    return {
-      source: { ...common, kind: "drawing", elements: listElements(text()), nth },
-      notes: [],
-      nth,
-    } satisfies LeafFile;
+    return { ...found, source: { ...usual, kind: "drawing", elements: listElements(text()), nth } };
   if (kind === "photo") {
     const { cutOut, leaves } = await readPhoto(bytes, core, progress, options);
-    return { source: { ...common, kind, photo: cutOut }, notes: [], leaves, nth } satisfies LeafFile;
+    return { ...found, source: { ...usual, kind, photo: cutOut }, leaves };
   }
   const { notes, ...mesh } = await readMesh(bytes, kind);
-  return { source: { ...common, kind: "mesh", ...mesh }, notes, nth: 1 } satisfies LeafFile;
+  return { ...found, source: { ...usual, kind: "mesh", ...mesh }, notes };
 }
 
 /**
