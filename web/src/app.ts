@@ -99,14 +99,15 @@ export class App {
   async load(recipe: Recipe, what: string): Promise<boolean> {
     const session = this.active;
     const before = session.info && session.recipe();
+    const forget = before && this.undo.push(what, () => session.restore(before));
     try {
       await session.load(recipe);
     } catch (error) {
+      forget?.();
       this.messages.error((error as Error).message);
       this.events.emit("config", session);
       return false;
     }
-    if (before) this.undo.push(what, () => session.restore(before));
     for (const note of session.info?.notes ?? []) this.messages.tell(note);
     return true;
   }

@@ -42,6 +42,7 @@ export function mapMaterial(): THREE.MeshStandardMaterial {
   return new THREE.MeshStandardMaterial({
     vertexColors: true,
     toneMapped: false,
+    color: new THREE.Color(0.72, 0.72, 0.72), // so that what is well lit has the legend's colours
     roughness: 1,
     side: THREE.DoubleSide,
     polygonOffset: true,

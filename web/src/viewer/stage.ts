@@ -16,7 +16,7 @@ const kFullDetail = Math.min(devicePixelRatio, 2);
 const kLevels = [
   { pixels: 1, shadow: 1024, blur: 12 },
   { pixels: 0.75, shadow: 512, blur: 6 },
-  { pixels: 0.5, shadow: 256, blur: 4 },
+  { pixels: 0.5, shadow: 512, blur: 4 },
 ];
 const kBetween = 1.25; // leaf lengths between two leaves that are compared
 
@@ -224,7 +224,6 @@ export class Stage {
     key.position.set(-2.2, 4, -0.6);
     key.castShadow = true;
     Object.assign(key.shadow.camera, { left: -2.2, right: 2.2, top: 2.2, bottom: -2.2, near: 0.5, far: 9 });
-    key.shadow.radius = 5;
     key.shadow.bias = -0.0006;
     key.shadow.normalBias = 0.012;
     return key;
@@ -261,6 +260,7 @@ export class Stage {
     Object.assign(this.key.shadow, { map: null, mapPass: null });
     this.key.shadow.mapSize.set(shadow, shadow);
     this.key.shadow.blurSamples = blur;
+    this.key.shadow.radius = (5 * shadow) / 1024;
     this.detail = kFullDetail * pixels;
     this.invalidate();
   }
