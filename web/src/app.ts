@@ -108,7 +108,11 @@ export class App {
       this.events.emit("config", session);
       return false;
     }
-    for (const note of session.info?.notes ?? []) this.messages.tell(note);
+    this.messages.forgetNotes();
+    for (const note of session.info?.notes ?? []) {
+      // What was asked for needs no saying, and there is no command line here.
+      if (!note.startsWith("petiole as given")) this.messages.tell(note.replace("give --petiole X,Y", "move it: Edit, Move the petiole"));
+    }
     return true;
   }
 
@@ -117,8 +121,10 @@ export class App {
     const session = this.active;
     if (undoable) this.remember(key);
     session.set(key, value, this.playback.shown);
-    if (!this.playback.playing && this.playback.shown > 0 && !session.ended) {
-      this.messages.hint(`From iteration ${this.playback.shown} on. Press play to see it.`);
+    const { playing, shown } = this.playback;
+    const live = session.settings.get(key)?.duringRun && !(session.ended && shown >= session.head);
+    if (live && !playing && shown > 0) {
+      this.messages.hint(`From iteration ${shown} on. Press play to see it.`);
     }
   }
 
