@@ -18,7 +18,7 @@ import { buildWither } from "./panel/wither";
 import { Session } from "./session";
 import { buildSheet } from "./sheet";
 import { buildShortcuts } from "./shortcuts";
-import { hasWasmSimd, webGl2, showWithoutCore } from "./support";
+import { missingForCore, showWithoutCore, webGl2 } from "./support";
 import { appState } from "./state";
 import { buildTheme } from "./theme";
 import { forcesTool } from "./tools/forces";
@@ -104,7 +104,11 @@ async function openFirst(app: App): Promise<void> {
 }
 
 function begin(): void {
-  if (!hasWasmSimd()) return showWithoutCore();
+  const missing = missingForCore();
+  if (missing) {
+    buildTheme(() => undefined);
+    return showWithoutCore(missing);
+  }
   const messages = new Messages(byId("messages"));
   const app = build(messages);
   run(app);
