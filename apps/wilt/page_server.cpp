@@ -124,8 +124,9 @@ PageServer::PageServer(ServedFiles files, int port) : impl_(std::make_unique<Imp
     impl_->answer(request, response);
     return httplib::Server::HandlerResponse::Handled;
   });
-  impl_->port = port != 0 && server.bind_to_port(kHost, port) ? port : server.bind_to_any_port(kHost);
-  if (impl_->port <= 0 || (port != 0 && impl_->port != port))
+  const bool any = port == 0;
+  impl_->port = any ? server.bind_to_any_port(kHost) : server.bind_to_port(kHost, port) ? port : 0;
+  if (impl_->port <= 0)
     throw Error(
         ErrorCode::output,
         fmt::format("port {} of {} cannot be had, another program may use it; give another --port, or none",

@@ -34,7 +34,7 @@ class View(unittest.TestCase):
         (cls.page / "assets").mkdir(parents=True)
         for name in TYPES:
             (cls.page / name).write_bytes(name.encode() * 70000 + bytes(range(256)))
-        (cls.dir / "secret.txt").write_text("secret")
+        (cls.dir / "secret.txt").write_text("top secret")
         (cls.page / "link.txt").symlink_to(cls.dir / "secret.txt")
         (cls.page / "linked").symlink_to(cls.dir)
 
@@ -66,10 +66,12 @@ class View(unittest.TestCase):
     def raw(self, text):
         with socket.create_connection(("127.0.0.1", self.port), timeout=20) as stream:
             stream.sendall(text.encode("latin-1"))
-            stream.shutdown(socket.SHUT_WR)
             answer = b""
-            while part := stream.recv(65536):
-                answer += part
+            try:
+                while part := stream.recv(65536):
+                    answer += part
+            except ConnectionResetError:
+                pass  # it did not read all of it
         return answer
 
     def refused(self, *arguments, code, says):
@@ -104,10 +106,10 @@ class View(unittest.TestCase):
                      str(self.dir / "secret.txt"), "/%5c..%5csecret.txt", "/" + "a" * 5000):
             answer, body = self.get(path)
             self.assertEqual(answer.status, 404, path)
-            self.assertNotIn(b"secret", body)
-        for text in ("GET ../secret.txt HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n", "GET\r\n\r\n", "\r\n" * 50, "x" * 100000,
-                     f"GET http://127.0.0.1:{self.port}/../secret.txt HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\n\r\n"):
-            self.assertNotIn(b"secret\n", self.raw(text))
+            self.assertNotIn(b"top secret", body)
+        for text in ("GET ../secret.txt HTTP/1.0\r\nHost: 127.0.0.1\r\n\r\n", "GET\r\n\r\n", "x" * 100000 + "\r\n\r\n",
+                     f"GET http://127.0.0.1:{self.port}/../secret.txt HTTP/1.0\r\nHost: 127.0.0.1:{self.port}\r\n\r\n"):
+            self.assertNotIn(b"top secret", self.raw(text))
         for method in ("POST", "PUT", "DELETE", "OPTIONS"):
             self.assertEqual(self.get("/", method)[0].status, 405, method)
         self.assertEqual(self.get("/")[0].status, 200)
