@@ -84,6 +84,7 @@ export class App {
   removeSession(): void {
     const session = this.sessions.pop();
     session?.close();
+    if (session) this.undo.forget(session);
     this.stage?.setLeaf(this.sessions.length, undefined);
     this.choose(this.sessions[0]!);
     this.reframe();
@@ -99,7 +100,7 @@ export class App {
   async load(recipe: Recipe, what: string): Promise<boolean> {
     const session = this.active;
     const before = session.info && session.recipe();
-    const forget = before && this.undo.push(what, () => session.restore(before));
+    const forget = before && this.undo.push(what, session, () => session.restore(before));
     try {
       await session.load(recipe);
     } catch (error) {
@@ -133,7 +134,7 @@ export class App {
   remember(what: string): void {
     const session = this.active;
     const before = session.recipe();
-    this.undo.push(what, () => session.restore(before));
+    this.undo.push(what, session, () => session.restore(before));
   }
 
   look(change: Partial<Shown>): void {

@@ -90,7 +90,7 @@ export class Session {
     };
   }
 
-  /** Makes another leaf; when several are asked for at once the last one is made. Rejects with wilt's message: the leaf stays. */
+  /** Makes another leaf; of several that are asked for at once the last. Rejects with wilt's message: the leaf stays. */
   load({ source, edits, config }: Recipe): Promise<void> {
     const ticket = ++this.tickets;
     return this.exclusive("Making the leaf", async () => {
@@ -126,7 +126,7 @@ export class Session {
     return same && !this.remakes(recipe.config) ? this.restart(recipe.config) : this.load(recipe);
   }
 
-  /** A setting becomes another, live where it may; `at`: the iteration that is shown. Quick calls are put together. */
+  /** Another value, live where it may be; `at`: the iteration that is shown. Quick calls are put together. */
   set(key: string, value: SettingValue, at: number): void {
     this.wanted.set(key, value);
     this.wantedAt = at;

@@ -134,7 +134,7 @@ export function buildWither(app: App): HTMLElement {
       id: "vertices",
       change: () => void load(app, { ...app.active.source, vertices: Number(vertices.value) }),
     },
-    ...[0, 1000, 2000, 5000, 10000, 20000].map((n) =>
+    ...[0, 500, 1000, 2000, 5000, 10000, 20000, 50000].map((n) =>
       element("option", { value: n }, n === 0 ? "usual" : n.toLocaleString("en")),
     ),
   );
