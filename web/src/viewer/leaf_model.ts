@@ -88,7 +88,8 @@ export class LeafModel {
     this.natural.normalScale.set(relief, -relief);
     this.group.position.y =
       -Math.min(lowest(array(skin.position)), lowest(array(stalk.position))) / this.info.length;
-    for (const moved of [skin.position, skin.normal, skin.color, stalk.position, stalk.normal]) moved!.needsUpdate = true;
+    for (const moved of [skin.position, skin.normal, skin.color, stalk.position, stalk.normal])
+      moved!.needsUpdate = true;
     this.veins.geometry.attributes.position!.needsUpdate = look.veins;
   }
 

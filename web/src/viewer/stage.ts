@@ -5,19 +5,12 @@ import { Emitter } from "../emitter";
 import type { LeafInfo, Textures } from "../core/protocol";
 import { ambientLight, gleam, ground, keyLight } from "./environment";
 import { FILLED, VIEWS, direction, framed } from "./framing";
+import { FULL_DETAIL, LEVELS, REST, SLOW } from "./detail";
 import { warmUp } from "./leaf_material";
 import { LeafModel, type Look, type Moment } from "./leaf_model";
 
 /** The mark in the browser's performance time line when the first leaf is drawn. */
 export const FIRST_PICTURE = "wilt-first-picture";
-const kSlow = 45; // ms between pictures
-const kRest = 500; // ms without movement until a slow machine draws in full detail
-const kFullDetail = Math.min(devicePixelRatio, 2);
-const kLevels = [
-  { pixels: 1, shadow: 1024, blur: 12 },
-  { pixels: 0.75, shadow: 512, blur: 6 },
-  { pixels: 0.5, shadow: 512, blur: 4 },
-];
 const kMostEnclosed = 2000; // points
 const kBetween = 1.25; // leaf lengths between two leaves that are compared
 
@@ -40,14 +33,14 @@ export class Stage {
   private lastDrawn = 0;
   private takingPictures = false;
   private rest = 0;
-  private detail = kFullDetail;
+  private detail = FULL_DETAIL;
 
   /** `slow`: pictures are drawn without a graphics processor. Throws where the browser has no WebGL 2. */
   constructor(
     readonly canvas: HTMLCanvasElement,
     slow: boolean,
   ) {
-    if (slow) this.level = kLevels.length - 1;
+    if (slow) this.level = LEVELS.length - 1;
     this.renderer = new THREE.WebGLRenderer({
       canvas,
       antialias: true,
@@ -75,11 +68,8 @@ export class Stage {
   }
 
   setLeaf(side: number, info: LeafInfo | undefined): void {
-    const old = this.models[side];
-    if (old) {
-      this.scene.remove(old.group);
-      old.dispose();
-    }
+    this.models[side]?.group.removeFromParent();
+    this.models[side]?.dispose();
     this.models[side] = info && new LeafModel(info);
     if (this.models[side]) this.scene.add(this.models[side].group);
     this.models.forEach((model, i) => {
@@ -119,7 +109,7 @@ export class Stage {
     this.render(this.detail);
     this.keepUp(performance.now());
     clearTimeout(this.rest);
-    if (this.level > 0) this.rest = window.setTimeout(() => this.render(kFullDetail), kRest);
+    if (this.level > 0) this.rest = window.setTimeout(() => this.render(FULL_DETAIL), REST);
   }
 
   private render(detail: number): void {
@@ -178,7 +168,7 @@ export class Stage {
 
   /** 1, or the share of the pixels' side that this machine draws quickly. */
   get pixelShare(): number {
-    return kLevels[this.level]!.pixels;
+    return LEVELS[this.level]!.pixels;
   }
 
   get isNamedView(): boolean {
@@ -271,11 +261,12 @@ export class Stage {
       return Math.max(Math.abs(at.x), Math.abs(at.y)) > FILLED;
     });
     if (outside.length === 0) return;
-    const kept = this.enclosed.length > kMostEnclosed ? this.enclosed.filter((_, i) => i % 2 === 0) : this.enclosed;
+    const kept =
+      this.enclosed.length > kMostEnclosed ? this.enclosed.filter((_, i) => i % 2 === 0) : this.enclosed;
     this.frame(direction(VIEWS[this.view]!), [...kept, ...outside]);
   }
 
-  /** Fewer pixels and plainer shadows where pictures take too long: kSlow in the median of some in a row. */
+  /** Fewer pixels and plainer shadows where pictures take too long: SLOW in the median of some in a row. */
   private keepUp(now: number): void {
     const since = now - this.lastDrawn;
     this.lastDrawn = now;
@@ -286,13 +277,13 @@ export class Stage {
       this.verySlow > 2 ? 500 : this.intervals.sort((a, b) => a - b)[this.intervals.length >> 1]!;
     this.intervals = [];
     this.verySlow = 0;
-    if (median < kSlow || this.level === kLevels.length - 1) return;
+    if (median < SLOW || this.level === LEVELS.length - 1) return;
     this.setLevel(this.level + 1);
   }
 
   private setLevel(level: number): void {
     this.level = level;
-    const { pixels, shadow, blur } = kLevels[level]!;
+    const { pixels, shadow, blur } = LEVELS[level]!;
     const { map, mapPass } = this.key.shadow;
     map?.dispose();
     mapPass?.dispose();
@@ -300,7 +291,7 @@ export class Stage {
     this.key.shadow.mapSize.set(shadow, shadow);
     this.key.shadow.blurSamples = blur;
     this.key.shadow.radius = (5 * shadow) / 1024;
-    this.detail = kFullDetail * pixels;
+    this.detail = FULL_DETAIL * pixels;
     this.invalidate();
   }
 }
