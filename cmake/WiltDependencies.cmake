@@ -37,6 +37,16 @@ if(WILT_NATIVE)
   find_package(meshoptimizer REQUIRED)
   find_package(LibArchive REQUIRED)
   find_library(LODEPNG_LIBRARY lodepng REQUIRED)
+  # Debian's library was built with all of these, which its header must know of.
+  find_path(WILT_HTTPLIB_INCLUDE httplib.h REQUIRED)
+  find_library(WILT_HTTPLIB cpp-httplib REQUIRED)
+  if(NOT TARGET cpp-httplib::cpp-httplib)
+    add_library(cpp-httplib::cpp-httplib INTERFACE IMPORTED)
+    target_include_directories(cpp-httplib::cpp-httplib SYSTEM INTERFACE ${WILT_HTTPLIB_INCLUDE})
+    target_compile_definitions(cpp-httplib::cpp-httplib INTERFACE
+      CPPHTTPLIB_OPENSSL_SUPPORT CPPHTTPLIB_ZLIB_SUPPORT CPPHTTPLIB_BROTLI_SUPPORT)
+    target_link_libraries(cpp-httplib::cpp-httplib INTERFACE ${WILT_HTTPLIB})
+  endif()
   # Debian has OpenCV's CMake package only with all of its modules, dozens of them.
   find_path(WILT_OPENCV_INCLUDE opencv2/imgproc.hpp PATH_SUFFIXES opencv4 REQUIRED)
   find_library(WILT_OPENCV_IMGPROC opencv_imgproc REQUIRED)

@@ -98,6 +98,7 @@ int run(int argc, char** argv) {
   add_info(app, options);
   add_reproduce(app, options);
   add_batch(app, options);
+  add_view(app, options);
   add_texts(app);
   const auto fail = [&](const std::string& message, ErrorCode code) {
     Terminal(options).error(message);

@@ -19,5 +19,6 @@ void add_reproduce(CLI::App& app, const GlobalOptions& options);
 void add_simulate(CLI::App& app, const GlobalOptions& options);
 void add_species(CLI::App& app, const GlobalOptions& options);
 void add_veins(CLI::App& app, const GlobalOptions& options);
+void add_view(CLI::App& app, const GlobalOptions& options);
 
 }  // namespace wilt::cli

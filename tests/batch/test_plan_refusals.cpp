@@ -27,6 +27,8 @@ struct Case {
 TEST(Plan, RefusesWithLineAndRange) {
   const std::string good = "leaf = \"ivy\"\n[write]\nfiles = \"leaf.glb\"\n";
   const Case cases[] = {
+      {"[settings]\nwater.dry_region = [0, 0, 1, 0, 1, 1]", "water.dry_region is a list of numbers"},
+      {"[settings]\nexternal.forces = {choice = [1, 2]}", "external.forces is a list of numbers"},
       {"[settings]\nwater.humidty = 0.5",
        "plan.toml, line 5: unknown setting 'water.humidty' (did you mean 'water.humidity'?)"},
       {"[settings]\nwater.humidity = {uniform = [0.5, 1.5]}",

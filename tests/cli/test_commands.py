@@ -58,7 +58,7 @@ class CommandLine(unittest.TestCase):
         return result
 
     def test_help_shows_examples_first_and_goes_to_stdout(self):
-        for verb in ([], ["demo"], ["species"], ["leaf"], ["veins"], ["simulate"], ["render"], ["reproduce"], ["info"]):
+        for verb in ([], ["demo"], ["species"], ["leaf"], ["veins"], ["simulate"], ["render"], ["reproduce"], ["info"], ["view"]):
             result = self.expect(0, *verb, "--help")
             self.assertLess(result.stdout.index("Examples:"), result.stdout.index("Options:"), verb)
             self.assertEqual(result.stderr, "")

@@ -16,7 +16,7 @@ import tomllib
 import unittest
 
 WILT = sys.argv.pop(1)
-VERBS = ["demo", "species", "leaf", "veins", "simulate", "render", "info", "reproduce"]
+VERBS = ["demo", "species", "leaf", "veins", "simulate", "render", "info", "reproduce", "view"]
 SPECIES = ["maple", "poplar", "tilia", "ivy", "willow", "grape"]
 # What stands on the screen of a zsh in which LINE and a tab were typed.
 ZSH = r"""

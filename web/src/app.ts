@@ -43,13 +43,13 @@ export class App {
   constructor(
     readonly stage: Stage | undefined,
     readonly messages: Messages,
+    first: Session,
   ) {
-    this.active = this.addSession();
+    this.active = this.addSession(first);
     this.playback.events.on("moved", () => this.show());
   }
 
-  addSession(): Session {
-    const session = new Session();
+  addSession(session: Session): Session {
     const side = this.sessions.push(session) - 1;
     session.events.on("leaf", (info) => {
       this.stage?.setLeaf(side, info);
@@ -99,15 +99,20 @@ export class App {
   async load(recipe: Recipe, what: string): Promise<boolean> {
     const session = this.active;
     const before = session.info && session.recipe();
+    const forget = before && this.undo.push(what, () => session.restore(before));
     try {
       await session.load(recipe);
     } catch (error) {
+      forget?.();
       this.messages.error((error as Error).message);
       this.events.emit("config", session);
       return false;
     }
-    if (before) this.undo.push(what, () => session.restore(before));
-    for (const note of session.info?.notes ?? []) this.messages.tell(note);
+    this.messages.forgetNotes();
+    for (const note of session.info?.notes ?? []) {
+      // What was asked for needs no saying, and there is no command line here.
+      if (!note.startsWith("petiole as given")) this.messages.tell(note.replace("give --petiole X,Y", "move it: Edit, Move the petiole"));
+    }
     return true;
   }
 
@@ -116,8 +121,10 @@ export class App {
     const session = this.active;
     if (undoable) this.remember(key);
     session.set(key, value, this.playback.shown);
-    if (!this.playback.playing && this.playback.shown > 0 && !session.ended) {
-      this.messages.hint(`From iteration ${this.playback.shown} on. Press play to see it.`);
+    const { playing, shown } = this.playback;
+    const live = session.settings.get(key)?.duringRun && !(session.ended && shown >= session.head);
+    if (live && !playing && shown > 0) {
+      this.messages.hint(`From iteration ${shown} on. Press play to see it.`);
     }
   }
 

@@ -1,12 +1,12 @@
 // A second leaf beside the first: the same clock and camera, settings of its own.
 import type { App } from "./app";
 import { byId, element } from "./dom";
-import type { Recipe } from "./session";
+import { type Recipe, Session } from "./session";
 
 /** `recipe`: of the second leaf. */
 export async function openCompare(app: App, recipe: Recipe): Promise<void> {
   if (app.sessions.length > 1) return;
-  const second = app.addSession();
+  const second = app.addSession(new Session());
   try {
     await second.load(recipe);
   } catch (error) {

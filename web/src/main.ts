@@ -15,9 +15,10 @@ import { buildLook } from "./panel/look";
 import { buildPlots } from "./panel/plots";
 import { buildTabs } from "./panel/tabs";
 import { buildWither } from "./panel/wither";
+import { Session } from "./session";
 import { buildSheet } from "./sheet";
 import { buildShortcuts } from "./shortcuts";
-import { hasWasmSimd, hasWebGl2, showWithoutCore } from "./support";
+import { hasWasmSimd, webGl2, showWithoutCore } from "./support";
 import { appState } from "./state";
 import { buildTheme } from "./theme";
 import { forcesTool } from "./tools/forces";
@@ -31,9 +32,11 @@ import { Stage } from "./viewer/stage";
 import { buildViews } from "./views";
 
 function build(messages: Messages): App {
-  const stage = hasWebGl2() ? new Stage(byId<HTMLCanvasElement>("canvas")) : undefined;
-  const app = new App(stage, messages);
-  buildTheme(() => stage?.invalidate());
+  const first = new Session(); // its worker loads while the rest is built
+  const drawing = webGl2();
+  const stage = drawing && new Stage(byId<HTMLCanvasElement>("canvas"), drawing.software);
+  const app = new App(stage, messages, first);
+  buildTheme((dark) => stage?.setDark(dark));
   let tools: Toolbox | undefined;
   if (stage) {
     buildViews(stage);
@@ -55,6 +58,7 @@ function build(messages: Messages): App {
     { id: "plots", name: "Plots", ...plots },
     { id: "all", name: "All", panel: buildAllSettings(app) },
   ]);
+  byId("tabs").addEventListener("click", () => stage?.invalidate());
   buildExports(app);
   buildShare(app);
   buildCompare(app);

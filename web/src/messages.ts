@@ -43,6 +43,11 @@ export class Messages {
     });
   }
 
+  /** What was said about the last leaf. */
+  forgetNotes(): void {
+    for (const note of this.box.querySelectorAll(".note")) note.remove();
+  }
+
   private add(text: string, kind: string): HTMLElement {
     for (const old of [...this.box.children]) if (old.querySelector("p")?.textContent === text && old !== this.hintBox) old.remove();
     const message: HTMLElement = element(

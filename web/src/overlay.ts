@@ -37,7 +37,7 @@ export function buildOverlay(app: App, stage: Stage): void {
 
   const rebuild = () => {
     for (const tip of tips) tip.remove();
-    tips = (app.active.info?.tips ?? []).map((tip) => element("div", { class: "tag" }, `r${tip.index + 1}`));
+    tips = (app.active.info?.tips ?? []).map((tip) => element("div", { class: "tag", hidden: true }, `r${tip.index + 1}`));
     box.append(...tips);
     stage.invalidate();
   };

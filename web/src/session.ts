@@ -85,8 +85,7 @@ export class Session {
     return this.exclusive("Making the leaf", async () => {
       if (ticket !== this.tickets) return;
       const info = await this.core.load(source, edits, configToml(config));
-      const settings = await this.core.settings();
-      const first = await this.core.frame();
+      const [first, settings] = await Promise.all([this.core.frame(), this.core.settings()]);
       Object.assign(this, { source, edits, config, info, textures: undefined });
       this.settings = new Map(settings.map((setting) => [setting.key, setting]));
       this.begin([first]);

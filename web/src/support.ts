@@ -9,12 +9,14 @@ export function hasWasmSimd(): boolean {
   return typeof WebAssembly === "object" && WebAssembly.validate(kSimdModule);
 }
 
-export function hasWebGl2(): boolean {
-  try {
-    return document.createElement("canvas").getContext("webgl2") !== null;
-  } catch {
-    return false;
-  }
+/** Whether and how the browser draws in 3D; undefined: it does not. */
+export function webGl2(): { software: boolean } | undefined {
+  const context = document.createElement("canvas").getContext("webgl2");
+  if (!context) return undefined;
+  const names = context.getExtension("WEBGL_debug_renderer_info");
+  const renderer = String(context.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : context.RENDERER));
+  context.getExtension("WEBGL_lose_context")?.loseContext();
+  return { software: /swiftshader|llvmpipe|software|basic render/i.test(renderer) };
 }
 
 /** Says what is missing and shows leaves that withered elsewhere. */

@@ -15,15 +15,14 @@ function stored(): string | null {
 }
 
 /** `changed`: the colours are others now. */
-export function buildTheme(changed: () => void): void {
+export function buildTheme(changed: (dark: boolean) => void): void {
   const system = matchMedia("(prefers-color-scheme: dark)");
   const button = byId("theme");
-  const apply = () => {
-    const theme = stored() ?? (system.matches ? "dark" : "light");
+  const apply = (theme = stored() ?? (system.matches ? "dark" : "light")) => {
     document.documentElement.dataset.theme = theme;
     button.innerHTML = theme === "dark" ? kSun : kMoon;
     button.setAttribute("aria-label", theme === "dark" ? "Light colours" : "Dark colours");
-    changed();
+    changed(theme === "dark");
   };
   button.addEventListener("click", () => {
     const next = document.documentElement.dataset.theme === "dark" ? "light" : "dark";
@@ -32,10 +31,8 @@ export function buildTheme(changed: () => void): void {
     } catch {
       // it holds for this visit only
     }
-    document.documentElement.dataset.theme = next;
-    if (stored() === next) apply();
-    else changed();
+    apply(next);
   });
-  system.addEventListener("change", apply);
+  system.addEventListener("change", () => apply());
   apply();
 }

@@ -10,10 +10,17 @@ export class Undo {
     return this.steps.at(-1)?.what ?? "";
   }
 
-  push(what: string, back: () => Promise<void>): void {
-    this.steps.push({ what, back });
+  /** Returns what forgets the step, when nothing came of it. */
+  push(what: string, back: () => Promise<void>): () => void {
+    const step = { what, back };
+    this.steps.push(step);
     if (this.steps.length > 100) this.steps.shift();
     this.events.emit("changed", undefined);
+    return () => {
+      const at = this.steps.indexOf(step);
+      if (at >= 0) this.steps.splice(at, 1);
+      this.events.emit("changed", undefined);
+    };
   }
 
   /** What was taken back; "": nothing was left. */

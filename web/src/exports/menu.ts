@@ -83,9 +83,15 @@ async function exportFilm(app: App): Promise<void> {
   await finish(app);
   const { makeFilm } = await import("./video");
   const abort = new AbortController();
-  const bar = element("progress", { max: 1, value: 0 });
-  const box = element("div", { class: "message" }, element("p", {}, "Film ... ", bar), element("button", { class: "small", id: "cancel-film", click: () => abort.abort() }, "Cancel"));
-  byId("messages").append(box);
+  const bar = element("progress", { max: 1, value: 0, "aria-label": "Film" });
+  const box = element("dialog", { id: "film", "aria-labelledby": "film-title", cancel: () => abort.abort() });
+  box.append(
+    element("h2", { id: "film-title" }, "Making the film ..."),
+    element("p", {}, bar),
+    element("button", { id: "cancel-film", click: () => abort.abort() }, "Cancel"),
+  );
+  document.body.append(box);
+  box.showModal();
   const shownBefore = playback.playhead;
   const aspect = stage.canvas.clientWidth / stage.canvas.clientHeight;
   const height = 2 * Math.round((Math.min(1080, 1920 / aspect) * stage.pixelShare) / 2);

@@ -77,10 +77,10 @@ export function buildEdit(app: App, box: Toolbox | undefined): HTMLElement {
     {},
     box && toolButtons(box),
     element("div", { class: "row" }, undo),
-    element("h3", {}, "Tips, and the force on each (right, to the apex, up)"),
+    element("h2", {}, "Tips, and the force on each (right, to the apex, up)"),
     tips,
     element("div", { class: "row" }, usual),
-    element("h3", {}, "A place on the margin"),
+    element("h2", {}, "A place on the margin"),
     place,
     element(
       "div",
@@ -88,7 +88,7 @@ export function buildEdit(app: App, box: Toolbox | undefined): HTMLElement {
       element("button", { class: "small", id: "add-tip", click: () => addTip(app, chosenPlace()) }, "Add a tip there"),
       element("button", { class: "small", id: "move-petiole", click: () => void movePetiole(app, chosenPlace()) }, "Petiole there"),
     ),
-    element("h3", {}, "A region that dries faster"),
+    element("h2", {}, "A region that dries faster"),
     element(
       "div",
       { class: "row" },

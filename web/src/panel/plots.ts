@@ -97,7 +97,7 @@ export function buildPlots(app: App): { panel: HTMLElement; shown: () => void } 
     "div",
     {},
     element("div", { class: "row" }, element("label", {}, "Forces on", regions)),
-    ...kPlots.flatMap((spec, i) => [element("h3", {}, spec.title), boxes[i]!]),
+    ...kPlots.flatMap((spec, i) => [element("h2", {}, spec.title), boxes[i]!]),
     element("p", { class: "hint" }, "Click on a plot to go to that moment. forces.csv in the export menu has the numbers."),
   );
   let plots: uPlot[] = [];

@@ -133,7 +133,7 @@ export function buildProfile(app: App): HTMLElement {
   return element(
     "section",
     {},
-    element("h3", {}, "Margin profile: distance to the petiole around the leaf"),
+    element("h2", {}, "Margin profile: distance to the petiole around the leaf"),
     canvas,
     said,
     element("p", { class: "hint" }, "Point at the curve or at the leaf's margin: the other lights up. Arrow keys move, Page Up and Down go from peak to peak."),

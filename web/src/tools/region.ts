@@ -72,33 +72,25 @@ function drawing(app: App, stage: Stage): { lasso: (points: Point[]) => void } {
     '<polyline id="lasso" fill="#3d85b822" stroke="#3d85b8" stroke-width="2"/>';
   byId("overlay").append(svg);
   const [outline, line] = [svg.children[0]!, svg.children[1]!];
-  let cached: { key: string; points: number[] } = { key: "", points: [] };
+  let cached: { key: string; within: number[] } = { key: "", within: [] };
   stage.events.on("drawn", () => {
     const model = stage.models[app.sessions.indexOf(app.active)];
     const corners = regionOf(app);
-    outline.toggleAttribute("hidden", corners.length === 0);
-    if (!model || !app.active.frames[0] || corners.length === 0) return outline.setAttribute("points", "");
-    const key = `${model.info.name}${model.info.points}${corners}`;
-    if (cached.key !== key) cached = { key, points: corners.map((corner) => nearest(app, corner)) };
+    const { info } = app.active;
+    if (!model || model.info !== info || corners.length === 0 || byId("panel-edit").hidden) return outline.setAttribute("points", "");
+    const key = `${info.name} ${info.points} ${corners}`;
+    if (cached.key !== key) {
+      const all = Array.from({ length: info.points }, (_, i) => i);
+      cached = { key, within: all.filter((i) => inside(corners, ...restPlace(app, i))) };
+    }
     const point = new THREE.Vector3();
-    const text = cached.points.map((index) => {
+    const seen = cached.within.map((index): Point => {
       const at = stage.project(model.point(index, point));
-      return `${at.x.toFixed(1)},${at.y.toFixed(1)}`;
+      return [at.x, at.y];
     });
-    outline.setAttribute("points", text.join(" "));
+    outline.setAttribute("points", convexHull(seen).map((p) => p.map((v) => v.toFixed(1)).join(",")).join(" "));
   });
   return { lasso: (points) => line.setAttribute("points", points.map((p) => p.join(",")).join(" ")) };
-}
-
-function nearest(app: App, [x, y]: Point): number {
-  let best = 0;
-  let least = Infinity;
-  for (let i = 0; i < app.active.info!.points; ++i) {
-    const [px, py] = restPlace(app, i);
-    const distance = (px - x) ** 2 + (py - y) ** 2;
-    if (distance < least) [best, least] = [i, distance];
-  }
-  return best;
 }
 
 export function regionTool(app: App, stage: Stage): Tool {

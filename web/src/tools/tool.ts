@@ -20,6 +20,7 @@ export class Toolbox {
   readonly events = new Emitter<{ chosen: Tool | undefined }>();
   chosen: Tool | undefined;
   private held = false;
+  private shownBefore = { tips: false, veins: false };
 
   constructor(
     readonly app: App,
@@ -36,7 +37,10 @@ export class Toolbox {
   }
 
   choose(tool: Tool | undefined): void {
+    const { tips, veins } = this.app.shown;
     if (this.chosen) this.chosen.leave();
+    else this.shownBefore = { tips, veins };
+    this.app.look(this.shownBefore);
     this.held = false;
     this.stage.controls.enabled = true;
     this.chosen = tool;

@@ -1,36 +1,57 @@
-// The light around the leaf: a bright, warm sky above, a paler wall behind, darker below. Made, not loaded.
+// The light around the leaf: a bright sky, two soft boxes, a warm floor; as a light probe, which any machine can afford.
 import * as THREE from "three";
 
-function sky(): THREE.Scene {
-  const scene = new THREE.Scene();
-  const dome = new THREE.SphereGeometry(10, 24, 16);
-  const colours = new Float32Array(dome.attributes.position!.count * 3);
-  const colour = new THREE.Color();
-  for (let i = 0; i < dome.attributes.position!.count; ++i) {
-    const height = dome.attributes.position!.getY(i) / 10;
-    if (height > 0) colour.setRGB(0.62, 0.64, 0.66).lerp(new THREE.Color(1.05, 1.1, 1.2), height);
-    else colour.setRGB(0.62, 0.64, 0.66).lerp(new THREE.Color(0.42, 0.38, 0.34), Math.min(1, -2 * height));
-    colour.toArray(colours, 3 * i);
-  }
-  dome.setAttribute("color", new THREE.BufferAttribute(colours, 3));
-  scene.add(new THREE.Mesh(dome, new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.BackSide })));
-  const softbox = (x: number, y: number, z: number, size: number, brightness: number) => {
-    const box = new THREE.Mesh(
-      new THREE.PlaneGeometry(size, size),
-      new THREE.MeshBasicMaterial({ color: new THREE.Color(1, 0.97, 0.92).multiplyScalar(brightness), side: THREE.DoubleSide }),
-    );
-    box.position.set(x, y, z);
-    box.lookAt(0, 0, 0);
-    scene.add(box);
-  };
-  softbox(-5, 6, 2, 5, 5);
-  softbox(6, 4, -4, 4, 2.5);
-  return scene;
+interface SoftBox {
+  towards: THREE.Vector3;
+  light: THREE.Color;
+  /** Sharpness: brightness falls as exp(k (cos - 1)). */
+  k: number;
 }
 
-export function environment(renderer: THREE.WebGLRenderer): THREE.Texture {
-  const generator = new THREE.PMREMGenerator(renderer);
-  const made = generator.fromScene(sky(), 0.03).texture;
-  generator.dispose();
-  return made;
+const kHorizon = new THREE.Color(0.46, 0.47, 0.48);
+const kZenith = new THREE.Color(0.86, 0.91, 1.0);
+const kFloor = new THREE.Color(0.36, 0.32, 0.28);
+const kBoxes: SoftBox[] = [
+  { towards: new THREE.Vector3(-5, 6, 2).normalize(), light: new THREE.Color(1, 0.97, 0.92).multiplyScalar(2.2), k: 9 },
+  { towards: new THREE.Vector3(6, 3, -4).normalize(), light: new THREE.Color(1, 0.9, 0.78).multiplyScalar(1.3), k: 9 },
+];
+
+function sky(towards: THREE.Vector3, out: THREE.Color): THREE.Color {
+  const { y } = towards;
+  out.copy(kHorizon).lerp(y > 0 ? kZenith : kFloor, Math.min(1, y > 0 ? y : -2 * y));
+  for (const box of kBoxes) {
+    const lobe = Math.exp(box.k * (towards.dot(box.towards) - 1));
+    out.r += box.light.r * lobe;
+    out.g += box.light.g * lobe;
+    out.b += box.light.b * lobe;
+  }
+  return out;
+}
+
+/** The sky's light in nine spherical harmonics, summed over directions spread evenly (a Fibonacci spiral). */
+export function ambientLight(): THREE.LightProbe {
+  const kDirections = 600;
+  const harmonics = new THREE.SphericalHarmonics3();
+  const basis: number[] = [];
+  const towards = new THREE.Vector3();
+  const light = new THREE.Color();
+  for (let i = 0; i < kDirections; ++i) {
+    const y = 1 - (2 * i + 1) / kDirections;
+    const angle = i * Math.PI * (3 - Math.sqrt(5));
+    towards.set(Math.cos(angle) * Math.sqrt(1 - y * y), y, Math.sin(angle) * Math.sqrt(1 - y * y));
+    THREE.SphericalHarmonics3.getBasisAt(towards, basis);
+    sky(towards, light);
+    harmonics.coefficients.forEach((c, k) => c.add(new THREE.Vector3(light.r, light.g, light.b).multiplyScalar(basis[k]!)));
+  }
+  harmonics.scale((4 * Math.PI) / kDirections);
+  return new THREE.LightProbe(harmonics, 1);
+}
+
+/** Their gleam on the leaf, which a probe does not give; without shadow. */
+export function gleam(): THREE.Light[] {
+  return kBoxes.map(({ towards, light }) => {
+    const box = new THREE.DirectionalLight(light, 0.22);
+    box.position.copy(towards);
+    return box;
+  });
 }

@@ -20,13 +20,11 @@ const kThrough = /* glsl */ `
   #endif
   #include <lights_fragment_end>`;
 
-export function leafMaterial(): THREE.MeshPhysicalMaterial {
-  const material = new THREE.MeshPhysicalMaterial({
+export function leafMaterial(): THREE.MeshStandardMaterial {
+  const material = new THREE.MeshStandardMaterial({
     vertexColors: true,
     side: THREE.DoubleSide,
     roughness: 0.62,
-    specularIntensity: 0.55,
-    sheen: 0,
     polygonOffset: true,
     polygonOffsetFactor: 1,
     polygonOffsetUnits: 1,
@@ -40,10 +38,12 @@ export function leafMaterial(): THREE.MeshPhysicalMaterial {
 }
 
 /** For colour maps: shape without gloss, so that a colour can be read. */
-export function mapMaterial(): THREE.MeshLambertMaterial {
-  return new THREE.MeshLambertMaterial({
+export function mapMaterial(): THREE.MeshStandardMaterial {
+  return new THREE.MeshStandardMaterial({
     vertexColors: true,
     toneMapped: false,
+    color: new THREE.Color(0.72, 0.72, 0.72), // so that what is well lit has the legend's colours
+    roughness: 1,
     side: THREE.DoubleSide,
     polygonOffset: true,
     polygonOffsetFactor: 1,
@@ -63,4 +63,20 @@ export async function jpegTexture(bytes: Uint8Array, colour: boolean): Promise<T
   texture.anisotropy = 8;
   texture.needsUpdate = true;
   return texture;
+}
+
+/** Nothing to be seen, of all materials: the graphics driver compiles them while the first leaf is being made. */
+export function warmUp(): THREE.Mesh[] {
+  const shape = new THREE.BufferGeometry();
+  for (const [name, size] of [["position", 3], ["normal", 3], ["color", 3], ["uv", 2]] as const) {
+    shape.setAttribute(name, new THREE.BufferAttribute(new Float32Array(3 * size), size));
+  }
+  const textured = leafMaterial();
+  const texel = new THREE.DataTexture(new Uint8Array([128, 128, 255, 255]));
+  textured.map = textured.normalMap = texel;
+  return [leafMaterial(), textured, new THREE.MeshStandardMaterial()].map((material) => {
+    const mesh = new THREE.Mesh(shape, material);
+    mesh.receiveShadow = true;
+    return mesh;
+  });
 }

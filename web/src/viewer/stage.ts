@@ -3,15 +3,20 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Emitter } from "../emitter";
 import type { LeafInfo, Textures } from "../core/protocol";
-import { environment } from "./environment";
+import { ambientLight, gleam } from "./environment";
 import { VIEWS, direction, framed } from "./framing";
+import { warmUp } from "./leaf_material";
 import { LeafModel, type Look, type Moment } from "./leaf_model";
 
+/** The mark in the browser's performance time line when the first leaf is drawn. */
+export const FIRST_PICTURE = "wilt-first-picture";
 const kSlow = 45; // ms between pictures
+const kRest = 500; // ms without movement until a slow machine draws in full detail
+const kFullDetail = Math.min(devicePixelRatio, 2);
 const kLevels = [
   { pixels: 1, shadow: 1024, blur: 12 },
   { pixels: 0.75, shadow: 512, blur: 6 },
-  { pixels: 0.5, shadow: 256, blur: 4 },
+  { pixels: 0.5, shadow: 512, blur: 4 },
 ];
 const kBetween = 1.25; // leaf lengths between two leaves that are compared
 
@@ -26,27 +31,33 @@ export class Stage {
   private dirty = true;
   private following = true; // the camera is where a named view put it
   private view = 0;
+  private readonly shade = new THREE.ShadowMaterial();
   private level = 0;
   private intervals: number[] = [];
   private verySlow = 0;
   private lastDrawn = 0;
   private takingPictures = false;
-  private detail = Math.min(devicePixelRatio, 2);
+  private rest = 0;
+  private detail = kFullDetail;
 
-  /** Throws where the browser has no WebGL 2. */
-  constructor(readonly canvas: HTMLCanvasElement) {
+  /** `slow`: pictures are drawn without a graphics processor. Throws where the browser has no WebGL 2. */
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    slow: boolean,
+  ) {
+    if (slow) this.level = kLevels.length - 1;
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: false });
     this.renderer.toneMapping = THREE.NeutralToneMapping;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.VSMShadowMap;
-    this.scene.environment = environment(this.renderer);
-    this.scene.environmentIntensity = 0.75;
-    this.scene.add(this.keyLight(), this.ground());
+    this.scene.add(this.keyLight(), ...gleam(), ambientLight(), this.ground());
     this.controls = new OrbitControls(this.camera, canvas);
     Object.assign(this.controls, { enableDamping: true, dampingFactor: 0.12, minDistance: 0.3, maxDistance: 12 });
     this.controls.addEventListener("change", () => this.invalidate());
     this.controls.addEventListener("start", () => (this.following = false));
     this.controls.addEventListener("end", () => this.events.emit("viewed", undefined));
+    this.setLevel(this.level);
+    this.renderer.compile(new THREE.Group().add(...warmUp()), this.camera, this.scene);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
     this.resize();
   }
@@ -75,6 +86,13 @@ export class Stage {
     this.invalidate();
   }
 
+  /** The ground's shadow, for a dark page or a light one. */
+  setDark(dark: boolean): void {
+    this.shade.color.set(dark ? "#000000" : "#1b2740");
+    this.shade.opacity = dark ? 0.5 : 0.3;
+    this.invalidate();
+  }
+
   /** The next draw() draws. */
   invalidate(): void {
     this.dirty = true;
@@ -83,10 +101,19 @@ export class Stage {
   /** Once per picture of the screen. */
   draw(): void {
     this.controls.update();
-    if (!this.dirty || this.takingPictures) return;
+    if (!this.dirty || this.takingPictures || !this.models[0]) return;
     this.dirty = false;
-    this.renderer.render(this.scene, this.camera);
+    this.render(this.detail);
     this.keepUp(performance.now());
+    clearTimeout(this.rest);
+    if (this.level > 0) this.rest = window.setTimeout(() => this.render(kFullDetail), kRest);
+  }
+
+  private render(detail: number): void {
+    if (this.takingPictures) return;
+    if (detail !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(detail);
+    this.renderer.render(this.scene, this.camera);
+    if (this.models[0] && performance.getEntriesByName(FIRST_PICTURE).length === 0) performance.mark(FIRST_PICTURE);
     this.events.emit("drawn", undefined);
   }
 
@@ -196,17 +223,14 @@ export class Stage {
     const key = this.key;
     key.position.set(-2.2, 4, -0.6);
     key.castShadow = true;
-    key.shadow.mapSize.set(1024, 1024);
     Object.assign(key.shadow.camera, { left: -2.2, right: 2.2, top: 2.2, bottom: -2.2, near: 0.5, far: 9 });
-    key.shadow.radius = 5;
-    key.shadow.blurSamples = 12;
     key.shadow.bias = -0.0006;
     key.shadow.normalBias = 0.012;
     return key;
   }
 
   private ground(): THREE.Object3D {
-    const ground = new THREE.Mesh(new THREE.CircleGeometry(8, 48), new THREE.ShadowMaterial({ opacity: 0.3, color: "#1b2740" }));
+    const ground = new THREE.Mesh(new THREE.CircleGeometry(8, 48), this.shade);
     ground.rotation.x = -Math.PI / 2;
     ground.position.y = -0.002;
     ground.receiveShadow = true;
@@ -230,11 +254,14 @@ export class Stage {
   private setLevel(level: number): void {
     this.level = level;
     const { pixels, shadow, blur } = kLevels[level]!;
-    this.key.shadow.map?.dispose();
-    this.key.shadow.map = null;
+    const { map, mapPass } = this.key.shadow;
+    map?.dispose();
+    mapPass?.dispose();
+    Object.assign(this.key.shadow, { map: null, mapPass: null });
     this.key.shadow.mapSize.set(shadow, shadow);
     this.key.shadow.blurSamples = blur;
-    this.detail = Math.min(devicePixelRatio, 2) * pixels;
-    this.resize();
+    this.key.shadow.radius = (5 * shadow) / 1024;
+    this.detail = kFullDetail * pixels;
+    this.invalidate();
   }
 }
