@@ -16,6 +16,14 @@ const FLAGS = [
   "--disable-sync",
 ];
 
+/** For a page's `init`: there is no WebGL. */
+export function withoutWebGl() {
+  const original = HTMLCanvasElement.prototype.getContext;
+  HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+    return kind.startsWith("webgl") ? null : original.call(this, kind, ...more);
+  };
+}
+
 /** What a folder holds, on loopback. */
 async function serve(folder) {
   const server = createServer((request, response) => {
@@ -39,7 +47,8 @@ export class Studio {
     page.on("console", (message) => message.type() === "error" && this.problems.push(`console: ${message.text()}`));
     page.on("pageerror", (error) => this.problems.push(`exception: ${error.message}`));
     page.on("requestfailed", (request) => this.problems.push(`request: ${request.url()} ${request.failure()?.errorText}`));
-    page.setDefaultTimeout(10_000);
+    page.setDefaultTimeout(15_000);
+    page.setDefaultNavigationTimeout(60_000);
   }
 
   /** `hash`: what a link says, "leaf=ivy&seed=1". Waits for a leaf at rest with its textures. */
@@ -71,7 +80,10 @@ export class Studio {
 
   /** Another leaf, as a link opens it; it stands still at iteration `i`. */
   async leaf(hash) {
-    await this.page.evaluate(() => (globalThis.wiltStudio.app.active.info = undefined));
+    await this.page.evaluate(() => {
+      globalThis.wiltStudio.app.active.info = undefined;
+      for (const button of document.querySelectorAll("#messages button")) button.click();
+    });
     await this.page.evaluate((text) => (location.hash = text), `${hash}&t=${Math.random()}`);
     const state = await this.until((now) => now.leaf && !now.busy && !now.playing);
     const wanted = Number(new URLSearchParams(hash).get("i") ?? 0);

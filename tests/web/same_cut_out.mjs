@@ -8,6 +8,7 @@ import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
+import { outlinesApart } from "./outlines.mjs";
 
 const [web, coreFolder, native, python, photosFolder] = process.argv.slice(2);
 const needed = [join(web, "node_modules/@techstark/opencv-js"), join(coreFolder, "wilt.wasm")];
@@ -41,29 +42,9 @@ async function outlineOracle() {
   return { notch: async (margin) => value(studio.notch(margin)), hasStalk: async (margin) => value(studio.hasStalk(margin)) };
 }
 
-function distanceToSegment(px, py, ax, ay, bx, by) {
-  const [ux, uy] = [bx - ax, by - ay];
-  const t = Math.min(1, Math.max(0, ((px - ax) * ux + (py - ay) * uy) / (ux * ux + uy * uy || 1)));
-  return Math.hypot(ax + t * ux - px, ay + t * uy - py);
-}
-
-/** From the points of one ring to the other line, the largest. */
-function farthest(points, line) {
-  let most = 0;
-  for (let i = 0; i < points.length; i += 2) {
-    let least = Infinity;
-    for (let k = 0, j = line.length - 2; k < line.length; j = k, k += 2) {
-      if (Math.abs(line[k] - points[i]) - 3 > least || Math.abs(line[k + 1] - points[i + 1]) - 3 > least) continue;
-      least = Math.min(least, distanceToSegment(points[i], points[i + 1], line[j], line[j + 1], line[k], line[k + 1]));
-    }
-    most = Math.max(most, least);
-  }
-  return most;
-}
-
 function same(name, page, expected) {
   const { margin, fork, ridges, size } = page.cutOut;
-  const apart = Math.max(farthest(margin, expected.margin), farthest(expected.margin, margin));
+  const apart = outlinesApart(margin, expected.margin);
   const forks = fork && expected.fork ? Math.hypot(fork[0] - expected.fork[0], fork[1] - expected.fork[1]) : fork || expected.fork ? Infinity : 0;
   const lines = ridges.reduce((sum, value, i) => sum + Math.abs(value - expected.ridges[i]), 0) / ridges.length;
   console.log(

@@ -1,12 +1,12 @@
 // The studio in Chromium: every check of checks/*.mjs, in one browser.
-// Usage: node studio.mjs SITE NODE_FOLDER CHROMIUM WILT SHARED_DATA PYTHON SCREENSHOTS [CHECK...]
+// Usage: node studio.mjs SITE NODE_FOLDER CHROMIUM WILT NATIVE_CUT_OUT SHARED_DATA PYTHON SCREENSHOTS [CHECK...]
 import assert from "node:assert/strict";
 import { existsSync, mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { startBrowser } from "./browser.mjs";
 
-const [site, nodeFolder, chromium, wilt, shared, python, screenshots, ...asked] = process.argv.slice(2);
+const [site, nodeFolder, chromium, wilt, nativeCutOut, shared, python, screenshots, ...asked] = process.argv.slice(2);
 const needed = {
   "the page has not been built (scripts/build-studio does that)": join(site, "index.html"),
   "playwright-core is not there (npm ci in build/dev/node installs it)": join(nodeFolder, "node_modules/playwright-core"),
@@ -25,12 +25,13 @@ const scratch = mkdtempSync(join(tmpdir(), "wilt-web-"));
 mkdirSync(screenshots, { recursive: true });
 const browser = await startBrowser(nodeFolder, chromium, site);
 try {
+  // One page for most checks: making its shaders takes software GL ten seconds.
+  const studio = await browser.studio();
+  await studio.open(asked.length > 0 ? "leaf=ivy&seed=1&vertices=400" : "");
   for (const group of GROUPS) {
     if (asked.length > 0 && !asked.some((name) => name.startsWith(group))) continue;
-    const { default: checks, needs = {} } = await import(`./checks/${group}.mjs`);
-    const studio = await browser.studio(needs);
-    const tools = { studio, browser, assert, scratch, wilt, shared, python, screenshots, nodeFolder };
-    if (needs.hash !== undefined) await studio.open(needs.hash);
+    const { default: checks } = await import(`./checks/${group}.mjs`);
+    const tools = { studio, browser, assert, scratch, wilt, nativeCutOut, shared, python, screenshots, nodeFolder };
     for (const [name, check] of Object.entries(checks)) {
       if (asked.length > 0 && !asked.some((word) => `${group}.${name}`.includes(word))) continue;
       const before = performance.now();
@@ -46,7 +47,6 @@ try {
       studio.problems.length = 0;
       console.log(`${group}.${name} (${((performance.now() - before) / 1000).toFixed(1)} s): ${verdict}`);
     }
-    await studio.page.context().close();
   }
 } finally {
   await browser.close();

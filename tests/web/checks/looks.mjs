@@ -4,8 +4,6 @@ import { coloursOf } from "./loading.mjs";
 
 const LEAF = "leaf=ivy&seed=1&vertices=500&s.iterations=40&i=12";
 
-export const needs = { hash: LEAF };
-
 export default {
   // Oracle: the range is that of the core's values over all frames so far.
   async everyFieldHasItsMapAndLegend({ studio, assert }) {

@@ -1,8 +1,6 @@
 // Play, pause, step, scrub, start again; asserted on the core's frames.
 const LEAF = "leaf=ivy&seed=1&vertices=400&s.iterations=30";
 
-export const needs = { hash: LEAF };
-
 export default {
   async playRunsToTheEnd({ studio, assert }) {
     await studio.leaf(LEAF);

@@ -1,8 +1,6 @@
 // Sliders, species, models; asserted on the core's settings and on what the leaf does.
 const LEAF = "leaf=ivy&seed=1&vertices=400&s.iterations=40";
 
-export const needs = { hash: LEAF };
-
 /** A setting as the core has it now. */
 const inCore = (studio, key) =>
   studio.core(async (core, name) => (await core.settings()).find((setting) => setting.key === name).value, key);
