@@ -105,14 +105,16 @@ export class App {
       await session.load(recipe);
     } catch (error) {
       forget?.();
-      this.messages.error((error as Error).message);
+      const said = (error as Error).message;
+      const { file, source } = recipe;
+      this.messages.error(file && !said.includes(source.name) ? `'${file.name}': ${said}` : said);
       this.events.emit("config", session);
       return false;
     }
     this.messages.forgetNotes();
     for (const note of session.info?.notes ?? []) {
       // What was asked for needs no saying, and there is no command line here.
-      if (!note.startsWith("petiole as given"))
+      if (!/^petiole as given|--leaf N/.test(note))
         this.messages.tell(note.replace("give --petiole X,Y", "move it: Edit, Move the petiole"));
     }
     return true;
