@@ -111,7 +111,8 @@ export class App {
     this.messages.forgetNotes();
     for (const note of session.info?.notes ?? []) {
       // What was asked for needs no saying, and there is no command line here.
-      if (!note.startsWith("petiole as given")) this.messages.tell(note.replace("give --petiole X,Y", "move it: Edit, Move the petiole"));
+      if (!note.startsWith("petiole as given"))
+        this.messages.tell(note.replace("give --petiole X,Y", "move it: Edit, Move the petiole"));
     }
     return true;
   }

@@ -21,7 +21,12 @@ export function buildCompare(app: App): void {
   const button = byId("compare");
   const sides = byId("sides");
   const inputs = ["A", "B"].map((name, side) => {
-    const input = element("input", { type: "radio", name: "side", id: `side-${name}`, change: () => app.sessions[side] && app.choose(app.sessions[side]) });
+    const input = element("input", {
+      type: "radio",
+      name: "side",
+      id: `side-${name}`,
+      change: () => app.sessions[side] && app.choose(app.sessions[side]),
+    });
     sides.append(element("label", {}, input, `Leaf ${name}`));
     return input;
   });

@@ -36,7 +36,11 @@ export function parseValue(text: string, kind: Setting["kind"]): SettingValue {
 }
 
 function literal(value: SettingValue): string {
-  return typeof value === "string" ? JSON.stringify(value) : Array.isArray(value) ? `[${value.join(", ")}]` : String(value);
+  return typeof value === "string"
+    ? JSON.stringify(value)
+    : Array.isArray(value)
+      ? `[${value.join(", ")}]`
+      : String(value);
 }
 
 /** As a configuration file of wilt. */

@@ -7,14 +7,19 @@ async function open(app: App, file: File, nth = 1): Promise<void> {
   const progress = app.messages.progress(`Reading ${file.name} ...`);
   try {
     const { readLeafFile } = await import("./import/read_leaf");
-    const said = (share: number, what: string) => progress.say(`${file.name}: ${what}, ${Math.round(100 * share)} %`);
+    const said = (share: number, what: string) =>
+      progress.say(`${file.name}: ${what}, ${Math.round(100 * share)} %`);
     const { source, notes, leaves = 1 } = await readLeafFile(file, app.active.core, said, { nth });
     const recipe = { source, edits: { added: [], removed: [] }, config: emptyConfig() };
     if (!(await app.load(recipe, `opening ${file.name}`))) return;
     for (const note of notes) app.messages.tell(note);
     if (leaves > 1) {
       const next = (nth % leaves) + 1;
-      app.messages.offer(`The picture shows ${leaves} leaves; this is number ${nth} by size.`, `Take number ${next}`, () => void open(app, file, next));
+      app.messages.offer(
+        `The picture shows ${leaves} leaves; this is number ${nth} by size.`,
+        `Take number ${next}`,
+        () => void open(app, file, next),
+      );
     }
     app.playback.play();
   } catch (error) {

@@ -5,7 +5,9 @@ import type { FieldName, Frame } from "./core/protocol";
 const kStops =
   "440154 481a6c 472f7d 414487 39568c 31688e 2a788e 23888e 1f988b 22a884 35b779 54c568 7ad151 a5db36 d2e21b fde725"
     .split(" ")
-    .map((hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255) as [number, number, number]);
+    .map(
+      (hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255) as [number, number, number],
+    );
 
 function linear(s: number): number {
   return s <= 0.04045 ? s / 12.92 : ((s + 0.055) / 1.055) ** 2.4;
@@ -30,7 +32,13 @@ export interface Range {
 }
 
 /** Linear RGB of each value, interpolated between two moments. */
-export function paintField(out: Float32Array, a: Float32Array, b: Float32Array, mix: number, { min, max }: Range): void {
+export function paintField(
+  out: Float32Array,
+  a: Float32Array,
+  b: Float32Array,
+  mix: number,
+  { min, max }: Range,
+): void {
   const scale = max > min ? (kSteps - 1) / (max - min) : 0;
   for (let i = 0; i < a.length; ++i) {
     const value = a[i]! + (b[i]! - a[i]!) * mix;

@@ -27,20 +27,24 @@ function writeRecipe({ source, edits, config }: Recipe): URLSearchParams {
   if (edits.added.length > 0) out.set("added", edits.added.map((s) => s.toPrecision(6)).join(","));
   if (edits.removed.length > 0) out.set("removed", edits.removed.map((s) => s.toPrecision(6)).join(","));
   for (const [key, set] of config.base) out.set(`s.${key}`, valueText(set));
-  for (const change of config.changes) out.append(`c.${change.iteration}.${change.key}`, valueText(change.value));
+  for (const change of config.changes)
+    out.append(`c.${change.iteration}.${change.key}`, valueText(change.value));
   return out;
 }
 
 function readRecipe(from: URLSearchParams): Recipe {
   const name = from.get("leaf") ?? "maple";
   if (!SPECIES.some((species) => species.name === name)) {
-    throw new Error(`The link asks for '${name}'; there are ${SPECIES.map((species) => species.name).join(", ")}`);
+    throw new Error(
+      `The link asks for '${name}'; there are ${SPECIES.map((species) => species.name).join(", ")}`,
+    );
   }
   const config = emptyConfig();
   for (const [key, text] of from) {
     const change = /^c\.(\d+)\.(.+)$/.exec(key);
     if (key.startsWith("s.")) config.base.set(key.slice(2), value(text));
-    else if (change) config.changes.push({ iteration: Number(change[1]), key: change[2]!, value: value(text) });
+    else if (change)
+      config.changes.push({ iteration: Number(change[1]), key: change[2]!, value: value(text) });
   }
   config.changes.sort((a, b) => a.iteration - b.iteration);
   const petiole = numbers(from.get("petiole"));
@@ -89,7 +93,11 @@ export function linked(): Linked | undefined {
     beside: beside ? readRecipe(new URLSearchParams(beside)) : undefined,
     iteration: Math.max(0, Number(from.get("i") ?? 0) || 0),
     look: (app) => {
-      app.look({ field: field in FIELDS ? (field as FieldName) : "", veins: from.has("veins"), tips: from.has("tips") });
+      app.look({
+        field: field in FIELDS ? (field as FieldName) : "",
+        veins: from.has("veins"),
+        tips: from.has("tips"),
+      });
       if (camera.length === 6 && app.stage) app.stage.cameraState = camera;
       else app.stage?.setView(Math.min(VIEWS.length, Math.max(1, Number(from.get("view") ?? 1) || 1)) - 1);
     },

@@ -18,7 +18,7 @@ import { buildWither } from "./panel/wither";
 import { Session } from "./session";
 import { buildSheet } from "./sheet";
 import { buildShortcuts } from "./shortcuts";
-import { hasWasmSimd, webGl2, showWithoutCore } from "./support";
+import { missingForCore, showWithoutCore, webGl2 } from "./support";
 import { appState } from "./state";
 import { buildTheme } from "./theme";
 import { forcesTool } from "./tools/forces";
@@ -41,7 +41,12 @@ function build(messages: Messages): App {
   if (stage) {
     buildViews(stage);
     buildOverlay(app, stage);
-    tools = new Toolbox(app, stage, [petioleTool(app, stage), forcesTool(app, stage), tipsTool(app, stage), regionTool(app, stage)]);
+    tools = new Toolbox(app, stage, [
+      petioleTool(app, stage),
+      forcesTool(app, stage),
+      tipsTool(app, stage),
+      regionTool(app, stage),
+    ]);
   } else {
     app.active.textureSize = 0;
     buildFlat(app);
@@ -92,7 +97,10 @@ async function openFirst(app: App): Promise<void> {
     asked = undefined;
   }
   if (!asked) {
-    const recipe = { source: { kind: "species", name: "maple", seed: 1, vertices: 0 } as const, edits: { added: [], removed: [] } };
+    const recipe = {
+      source: { kind: "species", name: "maple", seed: 1, vertices: 0 } as const,
+      edits: { added: [], removed: [] },
+    };
     await app.sessions[0]!.load({ ...recipe, config: emptyConfig() });
     if (!matchMedia("(prefers-reduced-motion: reduce)").matches) app.playback.play();
     return;
@@ -104,7 +112,11 @@ async function openFirst(app: App): Promise<void> {
 }
 
 function begin(): void {
-  if (!hasWasmSimd()) return showWithoutCore();
+  const missing = missingForCore();
+  if (missing) {
+    buildTheme(() => undefined);
+    return showWithoutCore(missing);
+  }
   const messages = new Messages(byId("messages"));
   const app = build(messages);
   run(app);

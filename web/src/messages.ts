@@ -49,7 +49,8 @@ export class Messages {
   }
 
   private add(text: string, kind: string): HTMLElement {
-    for (const old of [...this.box.children]) if (old.querySelector("p")?.textContent === text && old !== this.hintBox) old.remove();
+    for (const old of [...this.box.children])
+      if (old.querySelector("p")?.textContent === text && old !== this.hintBox) old.remove();
     const message: HTMLElement = element(
       "div",
       { class: `message ${kind}`, role: kind === "error" ? "alert" : undefined },

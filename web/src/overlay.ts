@@ -7,7 +7,13 @@ import type { Stage } from "./viewer/stage";
 const kNear = 26; // CSS pixels from the pointer to the margin that count as pointing at it
 
 /** Puts an element at a point of the scene. */
-export function place(stage: Stage, tag: HTMLElement | SVGElement, point: THREE.Vector3, dx = 0, dy = 0): void {
+export function place(
+  stage: Stage,
+  tag: HTMLElement | SVGElement,
+  point: THREE.Vector3,
+  dx = 0,
+  dy = 0,
+): void {
   const at = stage.project(point);
   tag.style.transform = `translate(${at.x + dx}px, ${at.y + dy}px)`;
 }
@@ -37,7 +43,9 @@ export function buildOverlay(app: App, stage: Stage): void {
 
   const rebuild = () => {
     for (const tip of tips) tip.remove();
-    tips = (app.active.info?.tips ?? []).map((tip) => element("div", { class: "tag", hidden: true }, `r${tip.index + 1}`));
+    tips = (app.active.info?.tips ?? []).map((tip) =>
+      element("div", { class: "tag", hidden: true }, `r${tip.index + 1}`),
+    );
     box.append(...tips);
     stage.invalidate();
   };
@@ -53,11 +61,17 @@ export function buildOverlay(app: App, stage: Stage): void {
       tips.forEach((tag, i) => place(stage, tag, model.point(info.tips[i]!.point, point), 3, -21));
       place(stage, petiole, model.point(info.petiolePoint, point), 3, -21);
     }
-    if (app.lit >= 0) place(stage, spot, model.point(info.margin.point[Math.min(app.lit, info.margin.point.length - 1)]!, point));
+    if (app.lit >= 0)
+      place(
+        stage,
+        spot,
+        model.point(info.margin.point[Math.min(app.lit, info.margin.point.length - 1)]!, point),
+      );
     sides.forEach((tag, side) => {
       const other = stage.models[side];
       tag.hidden = app.sessions.length < 2 || !other;
-      if (!tag.hidden) place(stage, tag, other!.group.localToWorld(point.set(0, 0, 0.12 * other!.info.length)), -8, 6);
+      if (!tag.hidden)
+        place(stage, tag, other!.group.localToWorld(point.set(0, 0, 0.12 * other!.info.length)), -8, 6);
       tag.classList.toggle("lit", app.sessions[side] === app.active);
     });
   };

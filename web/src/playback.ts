@@ -20,7 +20,10 @@ export class Playback {
 
   /** What all leaves have reached. */
   get head(): number {
-    return Math.min(...this.sessions().map((session) => (session.ended ? Infinity : session.head)), this.furthest);
+    return Math.min(
+      ...this.sessions().map((session) => (session.ended ? Infinity : session.head)),
+      this.furthest,
+    );
   }
 
   /** The iteration that is shown, whole. */

@@ -1,7 +1,15 @@
 // One leaf and its core: what was asked of it, the frames that it gave, and changes while it withers.
 import * as Comlink from "comlink";
 import type { Core, Frame, LeafInfo, LeafSource, Setting, Textures, VeinEdits } from "./core/protocol";
-import { type RunConfig, type SettingValue, configToml, copyConfig, emptyConfig, settled, valueText } from "./config";
+import {
+  type RunConfig,
+  type SettingValue,
+  configToml,
+  copyConfig,
+  emptyConfig,
+  settled,
+  valueText,
+} from "./config";
 import { Emitter } from "./emitter";
 
 /** All that makes a run; what undo and links go back to. */
@@ -49,7 +57,10 @@ export class Session {
   constructor() {
     this.core = Comlink.wrap<Core>(this.worker);
     this.worker.addEventListener("error", (event) =>
-      this.events.emit("failed", new Error(`the core could not be loaded: ${event.message || "see the console"}`)),
+      this.events.emit(
+        "failed",
+        new Error(`the core could not be loaded: ${event.message || "see the console"}`),
+      ),
     );
   }
 
@@ -214,7 +225,9 @@ export class Session {
 
   private remakes(config: RunConfig): boolean {
     const veins = ({ base }: RunConfig) =>
-      JSON.stringify([...base].filter(([key]) => key.startsWith("veins.")).map(([key, value]) => [key, value]));
+      JSON.stringify(
+        [...base].filter(([key]) => key.startsWith("veins.")).map(([key, value]) => [key, value]),
+      );
     return veins(config) !== veins(this.config);
   }
 
@@ -222,11 +235,17 @@ export class Session {
     const entries = [...this.wanted];
     this.wanted.clear();
     const at = Math.min(this.wantedAt, this.head);
-    const live = this.head > 0 && !(this.ended && at >= this.head) && entries.every(([key]) => this.settings.get(key)?.duringRun);
+    const live =
+      this.head > 0 &&
+      !(this.ended && at >= this.head) &&
+      entries.every(([key]) => this.settings.get(key)?.duringRun);
     if (!live) {
       const config = settled(this.config, at);
       for (const [key, value] of entries) config.base.set(key, value);
-      if (this.remakes(config)) void this.load({ source: this.source, edits: this.edits, config }).catch((error: Error) => this.events.emit("failed", error));
+      if (this.remakes(config))
+        void this.load({ source: this.source, edits: this.edits, config }).catch((error: Error) =>
+          this.events.emit("failed", error),
+        );
       else await this.startNow(config);
       return;
     }
@@ -237,7 +256,9 @@ export class Session {
     }
     for (const [key, value] of entries) {
       await this.core.change(key, valueText(value));
-      this.config.changes = this.config.changes.filter((change) => change.key !== key || change.iteration < this.head);
+      this.config.changes = this.config.changes.filter(
+        (change) => change.key !== key || change.iteration < this.head,
+      );
       this.config.changes.push({ iteration: this.head, key, value });
     }
   }

@@ -22,13 +22,27 @@ function help(): HTMLDialogElement {
   const dialog = element("dialog", { id: "help-dialog", "aria-labelledby": "help-title" });
   dialog.append(
     element("h2", { id: "help-title" }, "Leaves that wither"),
-    element("p", {}, "Press play, and move a slider while the leaf withers: it goes on from there. The bar at the bottom goes back in time; what you change there begins a new course."),
-    element("p", {}, "Drop a photo on a plain background, a drawing (.svg) or a mesh (.obj, .ply, .glb) anywhere on the page. Nothing leaves your computer."),
-    element("p", {}, "Drag turns the leaf, the wheel or two fingers zoom, the right button moves it. A double click on a slider goes back to the usual."),
+    element(
+      "p",
+      {},
+      "Press play, and move a slider while the leaf withers: it goes on from there. The bar at the bottom goes back in time; what you change there begins a new course.",
+    ),
+    element(
+      "p",
+      {},
+      "Drop a photo on a plain background, a drawing (.svg) or a mesh (.obj, .ply, .glb) anywhere on the page. Nothing leaves your computer.",
+    ),
+    element(
+      "p",
+      {},
+      "Drag turns the leaf, the wheel or two fingers zoom, the right button moves it. A double click on a slider goes back to the usual.",
+    ),
     element(
       "table",
       { class: "keys" },
-      ...kKeys.map(([key, does]) => element("tr", {}, element("td", {}, element("kbd", {}, key)), element("td", {}, does))),
+      ...kKeys.map(([key, does]) =>
+        element("tr", {}, element("td", {}, element("kbd", {}, key)), element("td", {}, does)),
+      ),
     ),
     element("p", { class: "hint", id: "about" }),
     element("button", { class: "primary", click: () => dialog.close() }, "Close"),
@@ -41,7 +55,8 @@ function help(): HTMLDialogElement {
 function taken(event: KeyboardEvent): boolean {
   const target = event.target as HTMLElement;
   if (target.closest("dialog")) return true;
-  if (target instanceof HTMLInputElement && ["radio", "range"].includes(target.type)) return event.key.startsWith("Arrow") || event.key === " " || event.key === "Home" || event.key === "End";
+  if (target instanceof HTMLInputElement && ["radio", "range"].includes(target.type))
+    return event.key.startsWith("Arrow") || event.key === " " || event.key === "Home" || event.key === "End";
   if (target instanceof HTMLInputElement && target.type !== "checkbox") return true;
   if (target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement) return true;
   return event.key === " " && target.closest("button, summary, input") !== null;
@@ -67,7 +82,11 @@ export function buildShortcuts(app: App, tools: Toolbox | undefined): void {
   };
   addEventListener("keydown", (event) => {
     if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z" && !event.shiftKey) {
-      if (event.target instanceof HTMLInputElement && ["text", "search", "number"].includes(event.target.type)) return;
+      if (
+        event.target instanceof HTMLInputElement &&
+        ["text", "search", "number"].includes(event.target.type)
+      )
+        return;
       event.preventDefault();
       void undoLast(app);
       return;

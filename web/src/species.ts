@@ -34,8 +34,7 @@ export const SPECIES: Species[] = [
   {
     name: "willow",
     botanical: "Salix alba",
-    outline:
-      "M27,27 24,1 22,11 21,21 21,30 21,37 22,43 24,47 25,46 26,41z",
+    outline: "M27,27 24,1 22,11 21,21 21,30 21,37 22,43 24,47 25,46 26,41z",
   },
   {
     name: "grape",

@@ -7,12 +7,27 @@ import type { Session } from "./session";
 function sessionState(session: Session, at: number) {
   const { info, source, edits, config, frames } = session;
   return {
-    leaf: info && { name: info.name, species: info.species, vertices: info.vertices, length: info.length, tips: info.tips.length, notes: info.notes },
-    source: { kind: source.kind, name: source.name, seed: source.seed, vertices: source.vertices, petiole: source.petiole },
+    leaf: info && {
+      name: info.name,
+      species: info.species,
+      vertices: info.vertices,
+      length: info.length,
+      tips: info.tips.length,
+      notes: info.notes,
+    },
+    source: {
+      kind: source.kind,
+      name: source.name,
+      seed: source.seed,
+      vertices: source.vertices,
+      petiole: source.petiole,
+    },
     edits,
     config: configToml(config),
     changes: config.changes,
-    settings: Object.fromEntries([...session.settings].map(([key, setting]) => [key, valueAt(config, setting, at)])),
+    settings: Object.fromEntries(
+      [...session.settings].map(([key, setting]) => [key, valueAt(config, setting, at)]),
+    ),
     frames: frames.length,
     head: session.head,
     ended: session.ended,

@@ -19,12 +19,34 @@ function icon(path: string): SVGSVGElement {
 
 export function buildTransport(app: App): void {
   const { playback } = app;
-  const play = element("button", { id: "play", class: "primary icon", "aria-label": "Play", click: () => playback.toggle() }, icon(kPlay));
-  const back = element("button", { id: "step-back", class: "icon optional", "aria-label": "One iteration back", click: () => playback.stepBy(-1) }, icon(kBack));
-  const on = element("button", { id: "step", class: "icon", "aria-label": "One iteration on", click: () => playback.stepBy(1) }, icon(kOn));
+  const play = element(
+    "button",
+    { id: "play", class: "primary icon", "aria-label": "Play", click: () => playback.toggle() },
+    icon(kPlay),
+  );
+  const back = element(
+    "button",
+    {
+      id: "step-back",
+      class: "icon optional",
+      "aria-label": "One iteration back",
+      click: () => playback.stepBy(-1),
+    },
+    icon(kBack),
+  );
+  const on = element(
+    "button",
+    { id: "step", class: "icon", "aria-label": "One iteration on", click: () => playback.stepBy(1) },
+    icon(kOn),
+  );
   const again = element(
     "button",
-    { id: "reset", class: "icon", "aria-label": "Start again, fresh, with these settings", click: () => void resetAll(app) },
+    {
+      id: "reset",
+      class: "icon",
+      "aria-label": "Start again, fresh, with these settings",
+      click: () => void resetAll(app),
+    },
     icon(kAgain),
   );
   const scrub = element("input", {
@@ -50,7 +72,15 @@ export function buildTransport(app: App): void {
       element("option", { value, selected: value === 1 }, value === Infinity ? "max" : `${value}×`),
     ),
   );
-  byId("transport").append(play, back, on, again, element("div", { class: "scrub" }, computed, scrub, marks), time, speed);
+  byId("transport").append(
+    play,
+    back,
+    on,
+    again,
+    element("div", { class: "scrub" }, computed, scrub, marks),
+    time,
+    speed,
+  );
 
   const update = () => {
     const all = playback.iterations;
@@ -58,7 +88,10 @@ export function buildTransport(app: App): void {
     scrub.value = String(Math.round(Math.min(playback.playhead, playback.head)));
     const hours = (playback.shown * Number(app.active.setting("clip.hours", 48))) / 100;
     scrub.setAttribute("aria-valuetext", `iteration ${playback.shown} of ${all}, ${hours.toFixed(0)} hours`);
-    time.replaceChildren(`${playback.shown} / ${all}`, element("span", { class: "more" }, ` · ${hours.toFixed(0)} h`));
+    time.replaceChildren(
+      `${playback.shown} / ${all}`,
+      element("span", { class: "more" }, ` · ${hours.toFixed(0)} h`),
+    );
     computed.style.width = `${(100 * app.active.head) / all}%`;
   };
   const updateMarks = () => {
@@ -66,7 +99,10 @@ export function buildTransport(app: App): void {
     const places = new Set(app.active.config.changes.map((change) => change.iteration));
     marks.replaceChildren(
       ...[...places].map((iteration) => {
-        const mark = element("span", { class: "mark", title: `A setting changed after iteration ${iteration}` });
+        const mark = element("span", {
+          class: "mark",
+          title: `A setting changed after iteration ${iteration}`,
+        });
         mark.style.left = `calc(8px + ${iteration / all} * (100% - 16px))`;
         return mark;
       }),

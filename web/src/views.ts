@@ -9,7 +9,11 @@ export function buildViews(stage: Stage): void {
     { id: "view", "aria-label": "View", change: () => stage.setView(Number(select.value)) },
     ...VIEWS.map(({ name }, i) => element("option", { value: i }, `${i + 1}  ${name}`)),
   );
-  const fit = element("button", { id: "fit", class: "small", title: "Show all of the leaf (F)", click: () => stage.fit() }, "Fit");
+  const fit = element(
+    "button",
+    { id: "fit", class: "small", title: "Show all of the leaf (F)", click: () => stage.fit() },
+    "Fit",
+  );
   byId("views").append(select, fit);
   stage.events.on("viewed", () => (select.value = String(stage.viewIndex)));
 }

@@ -53,11 +53,19 @@ function sayCommand(app: App): void {
   dialog.append(
     element("h2", { id: "command-title" }, "The same at a terminal"),
     element("pre", { id: "command" }, line),
-    element("p", { class: "hint" }, `run.toml${edited ? " and veins.json are" : " is"} in this menu. Positions agree with the browser's to a small tolerance.`),
+    element(
+      "p",
+      { class: "hint" },
+      `run.toml${edited ? " and veins.json are" : " is"} in this menu. Positions agree with the browser's to a small tolerance.`,
+    ),
     element(
       "div",
       { class: "row" },
-      element("button", { click: () => void navigator.clipboard?.writeText(line).then(() => app.messages.hint("Copied")) }, "Copy"),
+      element(
+        "button",
+        { click: () => void navigator.clipboard?.writeText(line).then(() => app.messages.hint("Copied")) },
+        "Copy",
+      ),
       element("button", { class: "primary", click: () => dialog.close() }, "Close"),
     ),
   );
@@ -150,13 +158,24 @@ export function buildExports(app: App): void {
       element("small", {}, help),
     );
   menu.append(
-    item("glb", "Animated leaf (.glb)", "For Blender, three.js, game engines: all frames, texture, veins", () => exportFile(app, "glb")),
+    item(
+      "glb",
+      "Animated leaf (.glb)",
+      "For Blender, three.js, game engines: all frames, texture, veins",
+      () => exportFile(app, "glb"),
+    ),
     item("png", "Picture (.png)", "What you see, at twice the size", () => exportPicture(app)),
     item("film", "Film (.mp4 or .webm)", "The whole run, from where you look", () => exportFilm(app)),
-    item("toml", "Settings (.toml)", "The command line takes them back and gives the same leaf", () => exportFile(app, "toml")),
+    item("toml", "Settings (.toml)", "The command line takes them back and gives the same leaf", () =>
+      exportFile(app, "toml"),
+    ),
     item("csv", "Forces (.csv)", "By kind and region, every iteration", () => exportFile(app, "forces.csv")),
-    item("report", "Report (.json)", "Measures of every frame, settings", () => exportFile(app, "report.json")),
-    item("veins", "Veins (.json)", "Tips, veins and the margin profile; to be edited and given back", () => exportFile(app, "veins.json")),
+    item("report", "Report (.json)", "Measures of every frame, settings", () =>
+      exportFile(app, "report.json"),
+    ),
+    item("veins", "Veins (.json)", "Tips, veins and the margin profile; to be edited and given back", () =>
+      exportFile(app, "veins.json"),
+    ),
   );
   button.addEventListener("click", () => show(menu.hidden));
   document.addEventListener("pointerdown", (event) => {

@@ -38,7 +38,9 @@ function configuration({ width, height, rate }: FilmRequest, codec: string): Vid
 async function chosenCodec(request: FilmRequest): Promise<Codec | undefined> {
   if (typeof VideoEncoder === "undefined") return undefined;
   for (const codec of kCodecs) {
-    const answer = await VideoEncoder.isConfigSupported(configuration(request, codec.codec)).catch(() => undefined);
+    const answer = await VideoEncoder.isConfigSupported(configuration(request, codec.codec)).catch(
+      () => undefined,
+    );
     if (answer?.supported) return codec;
   }
   return undefined;
@@ -48,8 +50,15 @@ async function encoded(request: FilmRequest, codec: Codec): Promise<Film> {
   const { width, height, pictures, rate, draw, progress, signal } = request;
   const muxer =
     codec.muxer === "avc"
-      ? new Mp4Muxer({ target: new Mp4Target(), video: { codec: "avc", width, height, frameRate: rate }, fastStart: "in-memory" })
-      : new WebmMuxer({ target: new WebmTarget(), video: { codec: codec.muxer, width, height, frameRate: rate } });
+      ? new Mp4Muxer({
+          target: new Mp4Target(),
+          video: { codec: "avc", width, height, frameRate: rate },
+          fastStart: "in-memory",
+        })
+      : new WebmMuxer({
+          target: new WebmTarget(),
+          video: { codec: codec.muxer, width, height, frameRate: rate },
+        });
   let failure: Error | undefined;
   const encoder = new VideoEncoder({
     output: (chunk, metadata) => muxer.addVideoChunk(chunk, metadata),
@@ -62,7 +71,10 @@ async function encoded(request: FilmRequest, codec: Codec): Promise<Film> {
       signal.throwIfAborted();
       if (failure) throw failure;
       draw(n, canvas);
-      const picture = new VideoFrame(canvas, { timestamp: Math.round((1e6 * n) / rate), duration: Math.round(1e6 / rate) });
+      const picture = new VideoFrame(canvas, {
+        timestamp: Math.round((1e6 * n) / rate),
+        duration: Math.round(1e6 / rate),
+      });
       encoder.encode(picture, { keyFrame: n % (2 * rate) === 0 });
       picture.close();
       progress(n + 1);
@@ -86,7 +98,10 @@ async function recorded(request: FilmRequest): Promise<Film> {
   const stream = canvas.captureStream(0);
   const track = stream.getVideoTracks()[0] as CanvasCaptureMediaStreamTrack;
   const type = ["video/mp4", "video/webm"].find((kind) => MediaRecorder.isTypeSupported(kind));
-  if (!type) throw new Error("this browser cannot write a film; export the GLB and use: wilt render leaf.glb -o leaf.mp4");
+  if (!type)
+    throw new Error(
+      "this browser cannot write a film; export the GLB and use: wilt render leaf.glb -o leaf.mp4",
+    );
   const parts: Blob[] = [];
   const recorder = new MediaRecorder(stream, { mimeType: type, videoBitsPerSecond: 12e6 });
   recorder.ondataavailable = (event) => parts.push(event.data);

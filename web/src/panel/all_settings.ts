@@ -8,11 +8,15 @@ import { element, shortNumber } from "../dom";
 const kElsewhere = new Set(["species", "vertices", "seed", "frames"]);
 
 function rangeText({ kind, min, max, unit, usual }: Setting): string {
-  const range = (kind === "number" || kind === "whole") && min < max ? `${shortNumber(min)} to ${shortNumber(max)}` : "";
+  const range =
+    (kind === "number" || kind === "whole") && min < max ? `${shortNumber(min)} to ${shortNumber(max)}` : "";
   return [range, unit && `[${unit}]`, `usually ${valueText(usual) || "none"}`].filter(Boolean).join(" · ");
 }
 
-function control(app: App, setting: Setting): { root: HTMLInputElement | HTMLSelectElement; show: (value: SettingValue) => void } {
+function control(
+  app: App,
+  setting: Setting,
+): { root: HTMLInputElement | HTMLSelectElement; show: (value: SettingValue) => void } {
   const attributes = { id: `all-${setting.key}`, "data-key": setting.key, "aria-label": setting.key };
   if (setting.kind === "word") {
     const select = element(
@@ -23,7 +27,11 @@ function control(app: App, setting: Setting): { root: HTMLInputElement | HTMLSel
     return { root: select, show: (value) => (select.value = String(value)) };
   }
   if (setting.kind === "flag") {
-    const box = element("input", { ...attributes, type: "checkbox", change: () => app.set(setting.key, box.checked) });
+    const box = element("input", {
+      ...attributes,
+      type: "checkbox",
+      change: () => app.set(setting.key, box.checked),
+    });
     return { root: box, show: (value) => (box.checked = value === true) };
   }
   const list = setting.kind === "numbers";
@@ -34,9 +42,13 @@ function control(app: App, setting: Setting): { root: HTMLInputElement | HTMLSel
     change: () => {
       const value = parseValue(input.value, setting.kind);
       const numbers = Array.isArray(value) ? value : [Number(value)];
-      const wrong = input.value.trim() === "" ? !list : numbers.some((n) => !(n >= setting.min && n <= setting.max));
+      const wrong =
+        input.value.trim() === "" ? !list : numbers.some((n) => !(n >= setting.min && n <= setting.max));
       input.setAttribute("aria-invalid", String(wrong));
-      if (wrong) app.messages.error(`${setting.key} takes ${shortNumber(setting.min)} to ${shortNumber(setting.max)}, not '${input.value}'`);
+      if (wrong)
+        app.messages.error(
+          `${setting.key} takes ${shortNumber(setting.min)} to ${shortNumber(setting.max)}, not '${input.value}'`,
+        );
       else app.set(setting.key, value);
     },
   });
@@ -48,33 +60,61 @@ function control(app: App, setting: Setting): { root: HTMLInputElement | HTMLSel
 }
 
 export function buildAllSettings(app: App): HTMLElement {
-  const search = element("input", { type: "search", id: "search", placeholder: "Search: humidity, k_s, margin ...", "aria-label": "Search the settings", input: () => filter() });
+  const search = element("input", {
+    type: "search",
+    id: "search",
+    placeholder: "Search: humidity, k_s, margin ...",
+    "aria-label": "Search the settings",
+    input: () => filter(),
+  });
   search.style.width = "100%";
   const onlyChanged = element("input", { type: "checkbox", id: "only-changed", change: () => filter() });
   const found = element("p", { class: "hint", role: "status" });
   const list = element("div", {});
-  let rows: { setting: Setting; row: HTMLElement; show: (value: SettingValue) => void; back: HTMLElement }[] = [];
+  let rows: { setting: Setting; row: HTMLElement; show: (value: SettingValue) => void; back: HTMLElement }[] =
+    [];
 
   const filter = () => {
     const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
     let count = 0;
     for (const { setting, row } of rows) {
       const text = `${setting.key} ${setting.help} ${setting.unit}`.toLowerCase();
-      row.hidden = !words.every((word) => text.includes(word)) || (onlyChanged.checked && !row.classList.contains("changed"));
+      row.hidden =
+        !words.every((word) => text.includes(word)) ||
+        (onlyChanged.checked && !row.classList.contains("changed"));
       if (!row.hidden) ++count;
     }
-    found.textContent = count === 0 ? "No setting is called that" : `${count} of ${rows.length} settings. “live”: may change while the leaf withers; the others begin anew.`;
+    found.textContent =
+      count === 0
+        ? "No setting is called that"
+        : `${count} of ${rows.length} settings. “live”: may change while the leaf withers; the others begin anew.`;
   };
   const build = () => {
     rows = [...app.active.settings.values()]
       .filter((setting) => !kElsewhere.has(setting.key))
       .map((setting) => {
         const { root, show } = control(app, setting);
-        const back = element("button", { class: "small", hidden: true, "aria-label": `${setting.key} as usual`, click: () => app.set(setting.key, setting.usual) }, "usual");
+        const back = element(
+          "button",
+          {
+            class: "small",
+            hidden: true,
+            "aria-label": `${setting.key} as usual`,
+            click: () => app.set(setting.key, setting.usual),
+          },
+          "usual",
+        );
         const row = element(
           "div",
           { class: "setting" },
-          element("div", { class: "name" }, element("code", {}, setting.key), setting.duringRun ? element("small", { class: "hint" }, "live") : undefined, back, root),
+          element(
+            "div",
+            { class: "name" },
+            element("code", {}, setting.key),
+            setting.duringRun ? element("small", { class: "hint" }, "live") : undefined,
+            back,
+            root,
+          ),
           element("p", { class: "hint" }, setting.help, element("br"), rangeText(setting)),
         );
         return { setting, row, show, back };

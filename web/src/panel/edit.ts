@@ -13,9 +13,20 @@ import { settingSlider } from "./slider";
 function toolButtons(box: Toolbox): HTMLElement {
   const hint = element("p", { class: "hint", role: "status" });
   const buttons = box.tools.map((tool) =>
-    element("button", { id: `tool-${tool.id}`, "aria-pressed": "false", click: () => box.choose(box.chosen === tool ? undefined : tool) }, tool.name),
+    element(
+      "button",
+      {
+        id: `tool-${tool.id}`,
+        "aria-pressed": "false",
+        click: () => box.choose(box.chosen === tool ? undefined : tool),
+      },
+      tool.name,
+    ),
   );
-  const say = () => (hint.textContent = box.chosen ? `${box.chosen.hint} Escape leaves.` : "Choose a tool, then use it on the leaf.");
+  const say = () =>
+    (hint.textContent = box.chosen
+      ? `${box.chosen.hint} Escape leaves.`
+      : "Choose a tool, then use it on the leaf.");
   box.events.on("chosen", (chosen) => {
     buttons.forEach((button, i) => button.setAttribute("aria-pressed", String(box.tools[i] === chosen)));
     say();
@@ -50,7 +61,16 @@ function tipRow(app: App, index: number): HTMLElement {
     { pointerenter: () => app.light(placeAt(app.active.info!, tip.s)), pointerleave: () => app.light(-1) },
     element("strong", {}, name),
     ...axes,
-    element("button", { class: "small", "aria-label": `Remove ${name}`, title: `Remove ${name}`, click: () => removeTip(app, tip) }, "✕"),
+    element(
+      "button",
+      {
+        class: "small",
+        "aria-label": `Remove ${name}`,
+        title: `Remove ${name}`,
+        click: () => removeTip(app, tip),
+      },
+      "✕",
+    ),
   );
   return row;
 }
@@ -63,15 +83,40 @@ export function buildEdit(app: App, box: Toolbox | undefined): HTMLElement {
     undo.title = app.undo.next ? `Take back: ${app.undo.next} (Ctrl-Z)` : "";
   });
   const tips = element("ul", { class: "list", id: "tip-list" });
-  const place = element("input", { type: "range", id: "place", min: 0, max: 100, step: 0.5, value: 50, "aria-label": "Place along the margin, per cent from the petiole, clockwise", input: () => app.light(chosenPlace()) });
+  const place = element("input", {
+    type: "range",
+    id: "place",
+    min: 0,
+    max: 100,
+    step: 0.5,
+    value: 50,
+    "aria-label": "Place along the margin, per cent from the petiole, clockwise",
+    input: () => app.light(chosenPlace()),
+  });
   const chosenPlace = () => {
     const { info } = app.active;
     return info ? placeAt(info, (Number(place.value) / 100) * info.margin.perimeter) : -1;
   };
   const around = element("select", { id: "around-tip", "aria-label": "Tip" });
-  const clear = element("button", { class: "small", id: "clear-region", click: () => app.set("water.dry_region", []) }, "No region");
-  const factor = settingSlider(app, { key: "water.dry_factor", label: "It dries", unit: "× as fast", ends: ["not at all", "fast"], min: 0, max: 10, step: 0.1 });
-  const usual = element("button", { class: "small", id: "usual-forces", click: () => app.set("external.forces", []) }, "Forces as usual");
+  const clear = element(
+    "button",
+    { class: "small", id: "clear-region", click: () => app.set("water.dry_region", []) },
+    "No region",
+  );
+  const factor = settingSlider(app, {
+    key: "water.dry_factor",
+    label: "It dries",
+    unit: "× as fast",
+    ends: ["not at all", "fast"],
+    min: 0,
+    max: 10,
+    step: 0.1,
+  });
+  const usual = element(
+    "button",
+    { class: "small", id: "usual-forces", click: () => app.set("external.forces", []) },
+    "Forces as usual",
+  );
   const root = element(
     "div",
     {},
@@ -85,15 +130,27 @@ export function buildEdit(app: App, box: Toolbox | undefined): HTMLElement {
     element(
       "div",
       { class: "row" },
-      element("button", { class: "small", id: "add-tip", click: () => addTip(app, chosenPlace()) }, "Add a tip there"),
-      element("button", { class: "small", id: "move-petiole", click: () => void movePetiole(app, chosenPlace()) }, "Petiole there"),
+      element(
+        "button",
+        { class: "small", id: "add-tip", click: () => addTip(app, chosenPlace()) },
+        "Add a tip there",
+      ),
+      element(
+        "button",
+        { class: "small", id: "move-petiole", click: () => void movePetiole(app, chosenPlace()) },
+        "Petiole there",
+      ),
     ),
     element("h2", {}, "A region that dries faster"),
     element(
       "div",
       { class: "row" },
       element("label", {}, "Around", around),
-      element("button", { class: "small", id: "dry-around", click: () => regionAroundTip(app, around.selectedIndex) }, "Dry it"),
+      element(
+        "button",
+        { class: "small", id: "dry-around", click: () => regionAroundTip(app, around.selectedIndex) },
+        "Dry it",
+      ),
       clear,
     ),
     factor.root,

@@ -21,13 +21,17 @@ function legend(app: App): void {
   const title = element("strong");
   const low = element("span");
   const high = element("span");
-  const lock = element("button", {
-    id: "lock-range",
-    class: "small",
-    "aria-pressed": "false",
-    title: "Keep these two numbers",
-    click: () => app.look({ lockedRange: app.shown.lockedRange ? undefined : { ...app.range } }),
-  }, "Lock");
+  const lock = element(
+    "button",
+    {
+      id: "lock-range",
+      class: "small",
+      "aria-pressed": "false",
+      title: "Keep these two numbers",
+      click: () => app.look({ lockedRange: app.shown.lockedRange ? undefined : { ...app.range } }),
+    },
+    "Lock",
+  );
   const scale = element("div", { class: "scale" });
   scale.style.background = SCALE_GRADIENT;
   const box = byId("legend");
@@ -53,8 +57,16 @@ export function buildLook(app: App): HTMLElement {
     element("option", { value: "" }, "Natural colours"),
     ...Object.keys(FIELDS).map((name) => element("option", { value: name }, kNames[name as FieldName])),
   );
-  const veins = element("input", { type: "checkbox", id: "show-veins", change: () => app.look({ veins: veins.checked }) });
-  const tips = element("input", { type: "checkbox", id: "show-tips", change: () => app.look({ tips: tips.checked }) });
+  const veins = element("input", {
+    type: "checkbox",
+    id: "show-veins",
+    change: () => app.look({ veins: veins.checked }),
+  });
+  const tips = element("input", {
+    type: "checkbox",
+    id: "show-tips",
+    change: () => app.look({ tips: tips.checked }),
+  });
   app.events.on("shown", (shown) => {
     field.value = shown.field;
     veins.checked = shown.veins;

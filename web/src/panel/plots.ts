@@ -26,17 +26,27 @@ const kPlots: PlotSpec[] = [
       value: (frame) => frame.forces[label as keyof typeof kForces][region] ?? 0,
     })),
   },
-  { title: "Water left (%)", lines: [{ label: "water", colour: "#3d85b8", value: (frame) => 100 * frame.waterLeft }] },
-  { title: "Wrinkle (% of the leaf's length)", lines: [{ label: "wrinkle", colour: "#d1603d", value: (frame) => 100 * frame.wrinkle }] },
+  {
+    title: "Water left (%)",
+    lines: [{ label: "water", colour: "#3d85b8", value: (frame) => 100 * frame.waterLeft }],
+  },
+  {
+    title: "Wrinkle (% of the leaf's length)",
+    lines: [{ label: "wrinkle", colour: "#d1603d", value: (frame) => 100 * frame.wrinkle }],
+  },
   { title: "Curl (degrees)", lines: [{ label: "curl", colour: "#7a8f3a", value: (frame) => frame.curl }] },
 ];
 
 /** What all lines share: the iterations of both leaves, with gaps where one has not come. */
 function table(spec: PlotSpec, sessions: readonly Session[]): uPlot.AlignedData {
-  const iterations = [...new Set(sessions.flatMap((s) => s.frames.map((f) => f.iteration)))].sort((a, b) => a - b);
+  const iterations = [...new Set(sessions.flatMap((s) => s.frames.map((f) => f.iteration)))].sort(
+    (a, b) => a - b,
+  );
   const columns = sessions.flatMap((session) => {
     const frames = new Map(session.frames.map((frame) => [frame.iteration, frame]));
-    return spec.lines.map((line) => iterations.map((i) => (frames.has(i) ? line.value(frames.get(i)!) : null)));
+    return spec.lines.map((line) =>
+      iterations.map((i) => (frames.has(i) ? line.value(frames.get(i)!) : null)),
+    );
   });
   return [iterations, ...columns];
 }
@@ -98,7 +108,11 @@ export function buildPlots(app: App): { panel: HTMLElement; shown: () => void } 
     {},
     element("div", { class: "row" }, element("label", {}, "Forces on", regions)),
     ...kPlots.flatMap((spec, i) => [element("h2", {}, spec.title), boxes[i]!]),
-    element("p", { class: "hint" }, "Click on a plot to go to that moment. forces.csv in the export menu has the numbers."),
+    element(
+      "p",
+      { class: "hint" },
+      "Click on a plot to go to that moment. forces.csv in the export menu has the numbers.",
+    ),
   );
   let plots: uPlot[] = [];
   let asked = false;
@@ -107,7 +121,9 @@ export function buildPlots(app: App): { panel: HTMLElement; shown: () => void } 
   const build = () => {
     if (!Plot || panel.hidden || panel.clientWidth === 0) return;
     for (const plot of plots) plot.destroy();
-    plots = kPlots.map((spec, i) => new Plot!(options(app, spec, boxes[i]!.clientWidth), table(spec, app.sessions), boxes[i]!));
+    plots = kPlots.map(
+      (spec, i) => new Plot!(options(app, spec, boxes[i]!.clientWidth), table(spec, app.sessions), boxes[i]!),
+    );
   };
   const refresh = () => {
     if (panel.hidden || asked) return;
@@ -120,7 +136,9 @@ export function buildPlots(app: App): { panel: HTMLElement; shown: () => void } 
   app.events.on("frames", refresh);
   app.events.on("sides", build);
   app.playback.events.on("moved", refresh);
-  new ResizeObserver(() => plots.forEach((plot, i) => plot.setSize({ width: boxes[i]!.clientWidth, height: 150 }))).observe(panel);
+  new ResizeObserver(() =>
+    plots.forEach((plot, i) => plot.setSize({ width: boxes[i]!.clientWidth, height: 150 })),
+  ).observe(panel);
   new MutationObserver(build).observe(document.documentElement, { attributeFilter: ["data-theme"] });
   const shown = () => {
     if (Plot) build();

@@ -72,7 +72,8 @@ function draw(canvas: HTMLCanvasElement, info: LeafInfo, lit: number): void {
 /** The place of the margin that is nearest to s. */
 export function placeAt({ margin }: LeafInfo, s: number): number {
   let best = 0;
-  for (let i = 1; i < margin.s.length; ++i) if (Math.abs(margin.s[i]! - s) < Math.abs(margin.s[best]! - s)) best = i;
+  for (let i = 1; i < margin.s.length; ++i)
+    if (Math.abs(margin.s[i]! - s) < Math.abs(margin.s[best]! - s)) best = i;
   return best;
 }
 
@@ -136,6 +137,10 @@ export function buildProfile(app: App): HTMLElement {
     element("h2", {}, "Margin profile: distance to the petiole around the leaf"),
     canvas,
     said,
-    element("p", { class: "hint" }, "Point at the curve or at the leaf's margin: the other lights up. Arrow keys move, Page Up and Down go from peak to peak."),
+    element(
+      "p",
+      { class: "hint" },
+      "Point at the curve or at the leaf's margin: the other lights up. Arrow keys move, Page Up and Down go from peak to peak.",
+    ),
   );
 }

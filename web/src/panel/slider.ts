@@ -58,7 +58,12 @@ export function settingSlider(app: App, spec: SliderSpec): { root: HTMLElement; 
     element("label", { for: id }, spec.label),
     output,
     input,
-    element("div", { class: "ends", "aria-hidden": "true" }, element("span", {}, spec.ends[0]), element("span", {}, spec.ends[1])),
+    element(
+      "div",
+      { class: "ends", "aria-hidden": "true" },
+      element("span", {}, spec.ends[0]),
+      element("span", {}, spec.ends[1]),
+    ),
   );
   return { root, update };
 }

@@ -7,8 +7,24 @@ import { SPECIES } from "../species";
 import { type SliderSpec, settingSlider } from "./slider";
 
 const kSliders: SliderSpec[] = [
-  { key: "water.loss_rate", label: "Water loss", unit: "× usual", ends: ["slow", "fast"], min: 0, max: 4, step: 0.05 },
-  { key: "water.temperature_c", label: "Temperature", unit: " °C", ends: ["cold", "hot"], min: 0, max: 45, step: 1 },
+  {
+    key: "water.loss_rate",
+    label: "Water loss",
+    unit: "× usual",
+    ends: ["slow", "fast"],
+    min: 0,
+    max: 4,
+    step: 0.05,
+  },
+  {
+    key: "water.temperature_c",
+    label: "Temperature",
+    unit: " °C",
+    ends: ["cold", "hot"],
+    min: 0,
+    max: 45,
+    step: 1,
+  },
   {
     key: "water.humidity",
     label: "Humidity of the air",
@@ -20,8 +36,24 @@ const kSliders: SliderSpec[] = [
     shown: (value) => 100 * value,
     meant: (percent) => percent / 100,
   },
-  { key: "curvature.roll", label: "Curl", unit: "× usual", ends: ["flat", "rolled up"], min: 0, max: 3, step: 0.05 },
-  { key: "shrinkage.amount", label: "Wrinkles", unit: "× usual", ends: ["smooth", "crumpled"], min: 0, max: 2.5, step: 0.05 },
+  {
+    key: "curvature.roll",
+    label: "Curl",
+    unit: "× usual",
+    ends: ["flat", "rolled up"],
+    min: 0,
+    max: 3,
+    step: 0.05,
+  },
+  {
+    key: "shrinkage.amount",
+    label: "Wrinkles",
+    unit: "× usual",
+    ends: ["smooth", "crumpled"],
+    min: 0,
+    max: 2.5,
+    step: 0.05,
+  },
 ];
 
 /** Sliders "times the usual": of the species' own value. */
@@ -37,7 +69,13 @@ function speciesPicker(app: App): { root: HTMLElement; update: () => void } {
       type: "radio",
       name: "species",
       value: name,
-      change: () => void load(app, { kind: "species", name, seed: app.active.source.seed, vertices: app.active.source.vertices }),
+      change: () =>
+        void load(app, {
+          kind: "species",
+          name,
+          seed: app.active.source.seed,
+          vertices: app.active.source.vertices,
+        }),
     }),
   );
   const root = element(
@@ -65,7 +103,8 @@ function speciesPicker(app: App): { root: HTMLElement; update: () => void } {
 async function load(app: App, source: LeafSource): Promise<void> {
   const same = source.name === app.active.source.name;
   const config = same ? settled(app.active.config, app.active.head) : emptyConfig();
-  const edits = same && source.seed === app.active.source.seed ? app.active.edits : { added: [], removed: [] };
+  const edits =
+    same && source.seed === app.active.source.seed ? app.active.edits : { added: [], removed: [] };
   if (await app.load({ source, edits, config }, "another leaf")) app.playback.play();
 }
 
@@ -83,13 +122,21 @@ export function buildWither(app: App): HTMLElement {
   seed.style.width = "6.5em";
   const another = element(
     "button",
-    { id: "another", click: () => void load(app, { ...app.active.source, seed: app.active.source.seed + 1 }) },
+    {
+      id: "another",
+      click: () => void load(app, { ...app.active.source, seed: app.active.source.seed + 1 }),
+    },
     "Another leaf",
   );
   const vertices = element(
     "select",
-    { id: "vertices", change: () => void load(app, { ...app.active.source, vertices: Number(vertices.value) }) },
-    ...[0, 1000, 2000, 5000, 10000, 20000].map((n) => element("option", { value: n }, n === 0 ? "usual" : n.toLocaleString("en"))),
+    {
+      id: "vertices",
+      change: () => void load(app, { ...app.active.source, vertices: Number(vertices.value) }),
+    },
+    ...[0, 1000, 2000, 5000, 10000, 20000].map((n) =>
+      element("option", { value: n }, n === 0 ? "usual" : n.toLocaleString("en")),
+    ),
   );
   const models = ["cell", "paper"].map((model) =>
     element("input", { type: "radio", name: "model", value: model, change: () => app.set("model", model) }),
@@ -123,7 +170,8 @@ export function buildWither(app: App): HTMLElement {
     }
     vertices.value = String(source.vertices);
     const setting = settings.get("model");
-    for (const input of models) input.checked = setting !== undefined && valueAt(config, setting, 0) === input.value;
+    for (const input of models)
+      input.checked = setting !== undefined && valueAt(config, setting, 0) === input.value;
   };
   for (const kind of ["leaf", "config", "active"] as const) app.events.on(kind, update);
   app.playback.events.on("moved", () => {

@@ -16,12 +16,16 @@ export function tipForces(app: App): number[] {
   if (!info) return [];
   if (given.length === 3 * info.tips.length) return [...given];
   const first = frames[0]?.tipForces ?? new Float32Array(3 * info.tips.length);
-  return info.tips.flatMap((_, i) => [first[3 * i]!, -first[3 * i + 2]!, first[3 * i + 1]!].map((v) => Number(v.toPrecision(4))));
+  return info.tips.flatMap((_, i) =>
+    [first[3 * i]!, -first[3 * i + 2]!, first[3 * i + 1]!].map((v) => Number(v.toPrecision(4))),
+  );
 }
 
 export function setTipForce(app: App, tip: number, force: [number, number, number]): void {
   const all = tipForces(app);
-  force.forEach((value, axis) => (all[3 * tip + axis] = Number(Math.min(100, Math.max(-100, value)).toPrecision(4))));
+  force.forEach(
+    (value, axis) => (all[3 * tip + axis] = Number(Math.min(100, Math.max(-100, value)).toPrecision(4))),
+  );
   app.set("external.forces", all);
 }
 
@@ -41,7 +45,8 @@ export function forcesTool(app: App, stage: Stage): Tool {
   let pulled: { tip: number; force: THREE.Vector3 } | undefined;
 
   const model = () => stage.models[app.sessions.indexOf(app.active)];
-  const forceAt = (tip: number) => (pulled?.tip === tip ? pulled.force : toScene(tipForces(app).slice(3 * tip, 3 * tip + 3)));
+  const forceAt = (tip: number) =>
+    pulled?.tip === tip ? pulled.force : toScene(tipForces(app).slice(3 * tip, 3 * tip + 3));
 
   const rebuild = () => {
     for (const handle of handles) handle.remove();
@@ -49,8 +54,16 @@ export function forcesTool(app: App, stage: Stage): Tool {
     arrows.clear();
     if (!active || !app.active.info) return;
     for (const { index } of app.active.info.tips) {
-      arrows.add(new THREE.ArrowHelper(new THREE.Vector3(0, 1, 0), new THREE.Vector3(), 0.1, "#23658f", 0.04, 0.025));
-      handles.push(element("div", { class: "handle", title: `Force at r${index + 1}`, pointerdown: (event: PointerEvent) => grab(event, index) }));
+      arrows.add(
+        new THREE.ArrowHelper(new THREE.Vector3(0, 1, 0), new THREE.Vector3(), 0.1, "#23658f", 0.04, 0.025),
+      );
+      handles.push(
+        element("div", {
+          class: "handle",
+          title: `Force at r${index + 1}`,
+          pointerdown: (event: PointerEvent) => grab(event, index),
+        }),
+      );
     }
     byId("overlay").append(...handles);
     stage.invalidate();
@@ -79,11 +92,17 @@ export function forcesTool(app: App, stage: Stage): Tool {
     handle.setPointerCapture(event.pointerId);
     const from = leaf.point(leaf.info.tips[tip]!.point, new THREE.Vector3());
     const end = from.clone().addScaledVector(forceAt(tip), kPerForce);
-    const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(stage.camera.getWorldDirection(new THREE.Vector3()), end);
+    const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(
+      stage.camera.getWorldDirection(new THREE.Vector3()),
+      end,
+    );
     const ray = new THREE.Raycaster();
     const box = stage.canvas.getBoundingClientRect();
     const drag = (moved: PointerEvent) => {
-      const at = new THREE.Vector2(((moved.clientX - box.left) / box.width) * 2 - 1, 1 - ((moved.clientY - box.top) / box.height) * 2);
+      const at = new THREE.Vector2(
+        ((moved.clientX - box.left) / box.width) * 2 - 1,
+        1 - ((moved.clientY - box.top) / box.height) * 2,
+      );
       ray.setFromCamera(at, stage.camera);
       const hit = ray.ray.intersectPlane(plane, new THREE.Vector3());
       if (hit) pulled = { tip, force: hit.sub(from).divideScalar(kPerForce) };

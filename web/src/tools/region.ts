@@ -44,7 +44,10 @@ function restPlace(app: App, index: number): Point {
 }
 
 export function setRegion(app: App, corners: Point[]): void {
-  app.set("water.dry_region", corners.flat().map((value) => Number(value.toFixed(4))));
+  app.set(
+    "water.dry_region",
+    corners.flat().map((value) => Number(value.toFixed(4))),
+  );
 }
 
 export function regionOf(app: App): Point[] {
@@ -77,7 +80,8 @@ function drawing(app: App, stage: Stage): { lasso: (points: Point[]) => void } {
     const model = stage.models[app.sessions.indexOf(app.active)];
     const corners = regionOf(app);
     const { info } = app.active;
-    if (!model || model.info !== info || corners.length === 0 || byId("panel-edit").hidden) return outline.setAttribute("points", "");
+    if (!model || model.info !== info || corners.length === 0 || byId("panel-edit").hidden)
+      return outline.setAttribute("points", "");
     const key = `${info.name} ${info.points} ${corners}`;
     if (cached.key !== key) {
       const all = Array.from({ length: info.points }, (_, i) => i);
@@ -88,7 +92,12 @@ function drawing(app: App, stage: Stage): { lasso: (points: Point[]) => void } {
       const at = stage.project(model.point(index, point));
       return [at.x, at.y];
     });
-    outline.setAttribute("points", convexHull(seen).map((p) => p.map((v) => v.toFixed(1)).join(",")).join(" "));
+    outline.setAttribute(
+      "points",
+      convexHull(seen)
+        .map((p) => p.map((v) => v.toFixed(1)).join(","))
+        .join(" "),
+    );
   });
   return { lasso: (points) => line.setAttribute("points", points.map((p) => p.join(",")).join(" ")) };
 }

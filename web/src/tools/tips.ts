@@ -13,7 +13,8 @@ const kClick = 6; // CSS pixels that a click may move
 async function edit(app: App, edits: VeinEdits, what: string): Promise<void> {
   const session = app.active;
   const config = settled(session.config, session.head);
-  if (config.base.delete("external.forces")) app.messages.tell("The forces on the tips are as usual again: there are other tips now");
+  if (config.base.delete("external.forces"))
+    app.messages.tell("The forces on the tips are as usual again: there are other tips now");
   if (await app.load({ source: session.source, edits, config }, what)) app.playback.play();
 }
 
@@ -45,7 +46,9 @@ export function tipUnder(app: App, stage: Stage, x: number, y: number): Tip | un
   const point = new THREE.Vector3();
   return model?.info.tips.find((tip) => {
     const at = stage.project(model.point(tip.point, point));
-    return Math.hypot(at.x - x, at.y - y) < 16 || (at.x - x < 0 && x - at.x < 34 && at.y - y > 0 && at.y - y < 24);
+    return (
+      Math.hypot(at.x - x, at.y - y) < 16 || (at.x - x < 0 && x - at.x < 34 && at.y - y > 0 && at.y - y < 24)
+    );
   });
 }
 

@@ -31,7 +31,10 @@ export class Toolbox {
     // Before the camera's own listeners, which are on the canvas.
     const box = canvas.parentElement!;
     box.addEventListener("pointerdown", (event) => this.onDown(event), { capture: true });
-    canvas.addEventListener("pointermove", (event) => this.held && this.chosen?.move(event.offsetX, event.offsetY));
+    canvas.addEventListener(
+      "pointermove",
+      (event) => this.held && this.chosen?.move(event.offsetX, event.offsetY),
+    );
     canvas.addEventListener("pointerup", (event) => this.release(event));
     canvas.addEventListener("pointercancel", () => this.choose(undefined));
   }

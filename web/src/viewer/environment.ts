@@ -12,8 +12,16 @@ const kHorizon = new THREE.Color(0.46, 0.47, 0.48);
 const kZenith = new THREE.Color(0.86, 0.91, 1.0);
 const kFloor = new THREE.Color(0.36, 0.32, 0.28);
 const kBoxes: SoftBox[] = [
-  { towards: new THREE.Vector3(-5, 6, 2).normalize(), light: new THREE.Color(1, 0.97, 0.92).multiplyScalar(2.2), k: 9 },
-  { towards: new THREE.Vector3(6, 3, -4).normalize(), light: new THREE.Color(1, 0.9, 0.78).multiplyScalar(1.3), k: 9 },
+  {
+    towards: new THREE.Vector3(-5, 6, 2).normalize(),
+    light: new THREE.Color(1, 0.97, 0.92).multiplyScalar(2.2),
+    k: 9,
+  },
+  {
+    towards: new THREE.Vector3(6, 3, -4).normalize(),
+    light: new THREE.Color(1, 0.9, 0.78).multiplyScalar(1.3),
+    k: 9,
+  },
 ];
 
 function sky(towards: THREE.Vector3, out: THREE.Color): THREE.Color {
@@ -41,7 +49,9 @@ export function ambientLight(): THREE.LightProbe {
     towards.set(Math.cos(angle) * Math.sqrt(1 - y * y), y, Math.sin(angle) * Math.sqrt(1 - y * y));
     THREE.SphericalHarmonics3.getBasisAt(towards, basis);
     sky(towards, light);
-    harmonics.coefficients.forEach((c, k) => c.add(new THREE.Vector3(light.r, light.g, light.b).multiplyScalar(basis[k]!)));
+    harmonics.coefficients.forEach((c, k) =>
+      c.add(new THREE.Vector3(light.r, light.g, light.b).multiplyScalar(basis[k]!)),
+    );
   }
   harmonics.scale((4 * Math.PI) / kDirections);
   return new THREE.LightProbe(harmonics, 1);

@@ -37,7 +37,8 @@ export function buildFlat(app: App): void {
       const area = (x(b) - x(a)) * (y(c) - y(a)) - (x(c) - x(a)) * (y(b) - y(a));
       const normal = Math.abs(moment.before.normals[3 * a + 1]!);
       const light = (area < 0 ? 1 : 0.75) * (0.55 + 0.6 * normal);
-      const channel = (k: number) => sRgb(((colours[3 * a + k]! + colours[3 * b + k]! + colours[3 * c + k]!) / 3) * light);
+      const channel = (k: number) =>
+        sRgb(((colours[3 * a + k]! + colours[3 * b + k]! + colours[3 * c + k]!) / 3) * light);
       pen.fillStyle = pen.strokeStyle = `rgb(${channel(0)} ${channel(1)} ${channel(2)})`;
       pen.beginPath();
       pen.moveTo(x(a), y(a));

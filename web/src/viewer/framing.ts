@@ -45,7 +45,11 @@ export function framed(
     for (const point of points) {
       const p = point.clone().sub(target);
       const depth = p.dot(back);
-      distance = Math.max(distance, depth + Math.abs(p.dot(right)) / tanX, depth + Math.abs(p.dot(up)) / tanY);
+      distance = Math.max(
+        distance,
+        depth + Math.abs(p.dot(right)) / tanX,
+        depth + Math.abs(p.dot(up)) / tanY,
+      );
     }
     const seen = points.map((point) => {
       const p = point.clone().sub(target);
@@ -54,7 +58,10 @@ export function framed(
     });
     const middle = (axis: number) =>
       (Math.min(...seen.map((p) => p[axis]!)) + Math.max(...seen.map((p) => p[axis]!))) / 2;
-    target = target.clone().addScaledVector(right, middle(0) * distance).addScaledVector(up, middle(1) * distance);
+    target = target
+      .clone()
+      .addScaledVector(right, middle(0) * distance)
+      .addScaledVector(up, middle(1) * distance);
   }
   return { position: target.clone().addScaledVector(back, distance), target };
 }

@@ -68,7 +68,12 @@ export async function jpegTexture(bytes: Uint8Array, colour: boolean): Promise<T
 /** Nothing to be seen, of all materials: the graphics driver compiles them while the first leaf is being made. */
 export function warmUp(): THREE.Mesh[] {
   const shape = new THREE.BufferGeometry();
-  for (const [name, size] of [["position", 3], ["normal", 3], ["color", 3], ["uv", 2]] as const) {
+  for (const [name, size] of [
+    ["position", 3],
+    ["normal", 3],
+    ["color", 3],
+    ["uv", 2],
+  ] as const) {
     shape.setAttribute(name, new THREE.BufferAttribute(new Float32Array(3 * size), size));
   }
   const textured = leafMaterial();

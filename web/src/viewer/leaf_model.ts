@@ -86,7 +86,8 @@ export class LeafModel {
     // Relief belongs to the dry leaf (docs/method.md, section 10). The map's y is glTF's, three.js derives its own.
     const relief = 0.3 + 0.7 * Math.min(1, mean(after.fields.dryness));
     this.natural.normalScale.set(relief, -relief);
-    this.group.position.y = -Math.min(lowest(array(skin.position)), lowest(array(stalk.position))) / this.info.length;
+    this.group.position.y =
+      -Math.min(lowest(array(skin.position)), lowest(array(stalk.position))) / this.info.length;
     for (const part of [this.blade, this.stalk, this.veins]) {
       for (const attribute of Object.values(part.geometry.attributes)) attribute.needsUpdate = true;
     }
@@ -110,13 +111,16 @@ export class LeafModel {
 
   dispose(): void {
     for (const part of [this.blade, this.stalk, this.veins]) part.geometry.dispose();
-    for (const material of [this.natural, this.mapped, this.stalk.material, this.veins.material]) material.dispose();
+    for (const material of [this.natural, this.mapped, this.stalk.material, this.veins.material])
+      material.dispose();
     this.natural.map?.dispose();
     this.natural.normalMap?.dispose();
   }
 }
 
-function array(attribute: THREE.BufferAttribute | THREE.InterleavedBufferAttribute | undefined): Float32Array {
+function array(
+  attribute: THREE.BufferAttribute | THREE.InterleavedBufferAttribute | undefined,
+): Float32Array {
   return attribute!.array as Float32Array;
 }
 

@@ -46,13 +46,23 @@ export class Stage {
     slow: boolean,
   ) {
     if (slow) this.level = kLevels.length - 1;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: false });
+    this.renderer = new THREE.WebGLRenderer({
+      canvas,
+      antialias: true,
+      alpha: true,
+      preserveDrawingBuffer: false,
+    });
     this.renderer.toneMapping = THREE.NeutralToneMapping;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.VSMShadowMap;
     this.scene.add(this.keyLight(), ...gleam(), ambientLight(), this.ground());
     this.controls = new OrbitControls(this.camera, canvas);
-    Object.assign(this.controls, { enableDamping: true, dampingFactor: 0.12, minDistance: 0.3, maxDistance: 12 });
+    Object.assign(this.controls, {
+      enableDamping: true,
+      dampingFactor: 0.12,
+      minDistance: 0.3,
+      maxDistance: 12,
+    });
     this.controls.addEventListener("change", () => this.invalidate());
     this.controls.addEventListener("start", () => (this.following = false));
     this.controls.addEventListener("end", () => this.events.emit("viewed", undefined));
@@ -113,7 +123,8 @@ export class Stage {
     if (this.takingPictures) return;
     if (detail !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(detail);
     this.renderer.render(this.scene, this.camera);
-    if (this.models[0] && performance.getEntriesByName(FIRST_PICTURE).length === 0) performance.mark(FIRST_PICTURE);
+    if (this.models[0] && performance.getEntriesByName(FIRST_PICTURE).length === 0)
+      performance.mark(FIRST_PICTURE);
     this.events.emit("drawn", undefined);
   }
 
@@ -180,7 +191,14 @@ export class Stage {
     this.renderer.render(this.scene, this.camera);
     const pen = onto.getContext("2d")!;
     const style = getComputedStyle(this.canvas.parentElement!);
-    const fill = pen.createRadialGradient(width / 2, height * 0.4, 0, width / 2, height * 0.4, Math.hypot(width, height) * 0.6);
+    const fill = pen.createRadialGradient(
+      width / 2,
+      height * 0.4,
+      0,
+      width / 2,
+      height * 0.4,
+      Math.hypot(width, height) * 0.6,
+    );
     fill.addColorStop(0, style.getPropertyValue("--stage-centre"));
     fill.addColorStop(1, style.getPropertyValue("--stage-edge"));
     pen.fillStyle = fill;
@@ -244,7 +262,8 @@ export class Stage {
     if (since < 500) this.intervals.push(since);
     if (since >= 500) ++this.verySlow;
     if (this.intervals.length + this.verySlow < 6) return;
-    const median = this.verySlow > 2 ? 500 : this.intervals.sort((a, b) => a - b)[this.intervals.length >> 1]!;
+    const median =
+      this.verySlow > 2 ? 500 : this.intervals.sort((a, b) => a - b)[this.intervals.length >> 1]!;
     this.intervals = [];
     this.verySlow = 0;
     if (median < kSlow || this.level === kLevels.length - 1) return;
