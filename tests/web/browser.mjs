@@ -4,7 +4,13 @@ import { createServer } from "node:http";
 import { createRequire } from "node:module";
 import { basename, extname, join, normalize, resolve } from "node:path";
 
-const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm", ".webp": "image/webp" };
+const TYPES = {
+  ".html": "text/html",
+  ".js": "text/javascript",
+  ".css": "text/css",
+  ".wasm": "application/wasm",
+  ".webp": "image/webp",
+};
 const FLAGS = [
   "--no-sandbox",
   "--use-angle=swiftshader",
@@ -47,7 +53,7 @@ export class Studio {
     page.on("console", (message) => message.type() === "error" && this.problems.push(`console: ${message.text()}`));
     page.on("pageerror", (error) => this.problems.push(`exception: ${error.message}`));
     page.on("requestfailed", (request) => this.problems.push(`request: ${request.url()} ${request.failure()?.errorText}`));
-    page.setDefaultTimeout(15_000);
+    page.setDefaultTimeout(45_000); // of a machine that has much else to do
     page.setDefaultNavigationTimeout(60_000);
   }
 

@@ -45,7 +45,12 @@ async function outlineOracle() {
 function same(name, page, expected) {
   const { margin, fork, ridges, size } = page.cutOut;
   const apart = outlinesApart(margin, expected.margin);
-  const forks = fork && expected.fork ? Math.hypot(fork[0] - expected.fork[0], fork[1] - expected.fork[1]) : fork || expected.fork ? Infinity : 0;
+  const forks =
+    fork && expected.fork
+      ? Math.hypot(fork[0] - expected.fork[0], fork[1] - expected.fork[1])
+      : fork || expected.fork
+        ? Infinity
+        : 0;
   const lines = ridges.reduce((sum, value, i) => sum + Math.abs(value - expected.ridges[i]), 0) / ridges.length;
   console.log(
     `${name}: outlines ${apart.toFixed(3)} px apart, forks ${fork ? forks.toFixed(3) + " px" : "none"}, ` +
@@ -62,7 +67,11 @@ try {
   execFileSync(python, ["-B", join(dirname(fileURLToPath(import.meta.url)), "paint_photos.py"), scratch]);
   const photos = ["lobed.jpg", "stalked.png"].map((name) => join(scratch, name));
   if (existsSync(photosFolder))
-    photos.push(...readdirSync(photosFolder).filter((name) => name.endsWith(".jpg")).map((name) => join(photosFolder, name)));
+    photos.push(
+      ...readdirSync(photosFolder)
+        .filter((name) => name.endsWith(".jpg"))
+        .map((name) => join(photosFolder, name)),
+    );
   else console.log("the photos of grape leaves are not there: only the painted ones are compared");
   const expected = JSON.parse(execFileSync(native, [pixels, ...photos], { maxBuffer: 1 << 30 }));
   const [{ cv, cutOutLeaf, photoOf }, oracle] = [await pageSteps(scratch), await outlineOracle()];

@@ -52,5 +52,5 @@ try {
   await browser.close();
   rmSync(scratch, { recursive: true });
 }
-console.log(`${performance.now() / 1000 | 0} s, ${failures} failures`);
+console.log(`${(performance.now() / 1000) | 0} s, ${failures} failures`);
 process.exitCode = failures > 0 ? 1 : 0;

@@ -7,6 +7,7 @@
 
 #include "wilt/core/error.hpp"
 #include "wilt/import/leaf_in_memory.hpp"
+#include "wilt/import/reading.hpp"
 #include "wilt/leaf/petiole.hpp"
 #include "wilt/leaf/species.hpp"
 
@@ -119,12 +120,15 @@ Leaf leaf_of(const val& source) {
   }
   if (kind == "mesh") return mesh_leaf(source);
   const std::string name = text(source, "name");
-  if (kind == "outline")
-    return leaf_from_drawing(parse_json_outline(text(source, "outline")), name, options_of(source));
-  if (kind == "drawing")
-    return leaf_from_drawing(drawn_from_elements(text(source, "elements"), whole(source, "nth")), name,
-                             options_of(source));
-  if (kind == "photo") return leaf_from_drawing(drawn_of(source["photo"]), name, options_of(source));
+  const auto drawn = [&] {  // what is refused is called by its name
+    return detail::naming(name, [&] {
+      if (kind == "outline") return parse_json_outline(text(source, "outline"));
+      if (kind == "drawing") return drawn_from_elements(text(source, "elements"), whole(source, "nth"));
+      return drawn_of(source["photo"]);
+    });
+  };
+  if (kind == "outline" || kind == "drawing" || kind == "photo")
+    return leaf_from_drawing(drawn(), name, options_of(source));
   throw Error(ErrorCode::input, fmt::format("'{}' is no kind of leaf", kind));
 }
 

@@ -1,4 +1,4 @@
-// What all ways to read a leaf have in common. Inside the import room only.
+// What all ways to read a leaf have in common. For the import room and the page's core.
 #pragma once
 
 #include <fmt/format.h>

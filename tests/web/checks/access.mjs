@@ -11,7 +11,10 @@ async function faults(studio, nodeFolder) {
   const { violations } = await studio.page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }));
   return violations
     .filter(({ impact }) => ["serious", "critical"].includes(impact))
-    .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html, failureSummary }) => `${html.slice(0, 120)} (${failureSummary.slice(0, 200)})`)}`);
+    .map(
+      ({ id, nodes }) =>
+        `${id}: ${nodes.slice(0, 3).map(({ html, failureSummary }) => `${html.slice(0, 120)} (${failureSummary.slice(0, 200)})`)}`,
+    );
 }
 
 export default {
@@ -38,14 +41,34 @@ export default {
   async theKeyboardAlone({ studio, assert }) {
     await studio.leaf(LEAF);
     const { keyboard } = studio.page;
-    const focused = () => studio.page.evaluate(() => document.activeElement?.id || document.activeElement?.name || document.activeElement?.className);
+    const focused = () =>
+      studio.page.evaluate(() => document.activeElement?.id || document.activeElement?.name || document.activeElement?.className);
     await studio.page.evaluate(() => (document.activeElement instanceof HTMLElement ? document.activeElement.blur() : undefined));
     const order = [];
     for (let k = 0; k < 40; ++k) {
       await keyboard.press("Tab");
       order.push(await focused());
     }
-    for (const id of ["open", "compare", "export", "share", "theme", "help", "canvas", "play", "step", "reset", "scrub", "speed", "tab-wither", "species", "set-water-humidity", "another", "model", "vertices"])
+    for (const id of [
+      "open",
+      "compare",
+      "export",
+      "share",
+      "theme",
+      "help",
+      "canvas",
+      "play",
+      "step",
+      "reset",
+      "scrub",
+      "speed",
+      "tab-wither",
+      "species",
+      "set-water-humidity",
+      "another",
+      "model",
+      "vertices",
+    ])
       assert.ok(order.includes(id), `Tab reaches ${id}: ${order.join(" ")}`);
     await studio.page.focus("#canvas");
     await keyboard.press(" ");
@@ -82,7 +105,9 @@ export default {
 
   async itSaysHowTheLeafIs({ studio, assert }) {
     await studio.leaf(`${LEAF}&i=20`);
-    await studio.page.waitForFunction(() => /Iteration 20 of 30: \d+ per cent of the water left/.test(document.getElementById("live").textContent), undefined, { timeout: 8000 });
+    await studio.page.waitForFunction(() =>
+      /Iteration 20 of 30: \d+ per cent of the water left/.test(document.getElementById("live").textContent),
+    );
     assert.match(await studio.page.getAttribute("#scrub", "aria-valuetext"), /20 of 30/);
   },
 
@@ -99,7 +124,8 @@ export default {
   async itIsDarkWhereTheSystemIs({ browser, assert }) {
     const dark = await browser.studio({ colorScheme: "dark", reducedMotion: "reduce", init: withoutWebGl });
     await dark.open("leaf=ivy&seed=1&vertices=400");
-    const theme = () => dark.page.evaluate(() => [document.documentElement.dataset.theme, getComputedStyle(document.body).backgroundColor]);
+    const theme = () =>
+      dark.page.evaluate(() => [document.documentElement.dataset.theme, getComputedStyle(document.body).backgroundColor]);
     const [name, background] = await theme();
     assert.equal(name, "dark");
     assert.ok(Number(/\d+/.exec(background)[0]) < 80, background);

@@ -58,7 +58,10 @@ export default {
     await fresh(studio);
     await studio.click("#tool-petiole");
     const target = await marginPoint(studio, 0.12);
-    const rest = await studio.core((_, i, app) => Array.from(app.active.frames[0].positions.slice(3 * i, 3 * i + 3)), target.point);
+    const rest = await studio.core(
+      (_, i, app) => Array.from(app.active.frames[0].positions.slice(3 * i, 3 * i + 3)),
+      target.point,
+    );
     const start = await inWindow(studio, await studio.core((_, __, app) => app.active.info.petiolePoint));
     const end = await inWindow(studio, target.point);
     await studio.page.mouse.move(start.x, start.y);
@@ -90,7 +93,8 @@ export default {
     await studio.page.mouse.up();
     await studio.until((now) => now.settings["external.forces"].length > 0);
     await studio.page.waitForFunction(
-      async (old) => (await globalThis.wiltStudio.core.frame()).tipForces.slice(0, 3).some((value, i) => Math.abs(value - old[i]) > 1e-3),
+      async (old) =>
+        (await globalThis.wiltStudio.core.frame()).tipForces.slice(0, 3).some((value, i) => Math.abs(value - old[i]) > 1e-3),
       before,
       { polling: 100 },
     );
@@ -128,29 +132,48 @@ export default {
     const corner = (x, y) => [box.x + x * box.width, box.y + y * box.height];
     await studio.page.mouse.move(...corner(0.5, 0.05));
     await studio.page.mouse.down();
-    for (const [x, y] of [[0.95, 0.05], [0.95, 0.6], [0.5, 0.6], [0.5, 0.1]]) await studio.page.mouse.move(...corner(x, y), { steps: 3 });
+    for (const [x, y] of [
+      [0.95, 0.05],
+      [0.95, 0.6],
+      [0.5, 0.6],
+      [0.5, 0.1],
+    ])
+      await studio.page.mouse.move(...corner(x, y), { steps: 3 });
     await studio.page.mouse.up();
     const { settings } = await studio.until((now) => now.settings["water.dry_region"].length >= 6 && now.head === 0);
     await studio.page.fill("#scrub", "10");
     await studio.until((now) => now.shown === 10);
-    const [inside, outside] = await studio.core((_, [region, usual], app) => {
-      const { frames, info } = app.active;
-      const within = (x, y) => {
-        let is = false;
-        for (let i = 0, j = region.length - 2; i < region.length; j = i, i += 2)
-          if (region[i + 1] > y !== region[j + 1] > y && x < region[i] + ((region[j] - region[i]) * (y - region[i + 1])) / (region[j + 1] - region[i + 1])) is = !is;
-        return is;
-      };
-      const sums = [[0, 0], [0, 0]];
-      frames[10].fields.water_fraction.forEach((water, i) => {
-        const [x, y] = [frames[0].positions[3 * i] / info.length, -frames[0].positions[3 * i + 2] / info.length];
-        const sum = sums[within(x, y) ? 0 : 1];
-        sum[0] += water - usual[i];
-        sum[1] += 1;
-      });
-      return sums.map(([sum, count]) => sum / count);
-    }, [settings["water.dry_region"], usual]);
-    assert.ok(inside < -0.005 && Math.abs(outside) < 0.1 * Math.abs(inside), `water differs by ${inside} inside, ${outside} outside`);
+    const [inside, outside] = await studio.core(
+      (_, [region, usual], app) => {
+        const { frames, info } = app.active;
+        const within = (x, y) => {
+          let is = false;
+          for (let i = 0, j = region.length - 2; i < region.length; j = i, i += 2)
+            if (
+              region[i + 1] > y !== region[j + 1] > y &&
+              x < region[i] + ((region[j] - region[i]) * (y - region[i + 1])) / (region[j + 1] - region[i + 1])
+            )
+              is = !is;
+          return is;
+        };
+        const sums = [
+          [0, 0],
+          [0, 0],
+        ];
+        frames[10].fields.water_fraction.forEach((water, i) => {
+          const [x, y] = [frames[0].positions[3 * i] / info.length, -frames[0].positions[3 * i + 2] / info.length];
+          const sum = sums[within(x, y) ? 0 : 1];
+          sum[0] += water - usual[i];
+          sum[1] += 1;
+        });
+        return sums.map(([sum, count]) => sum / count);
+      },
+      [settings["water.dry_region"], usual],
+    );
+    assert.ok(
+      inside < -0.005 && Math.abs(outside) < 0.1 * Math.abs(inside),
+      `water differs by ${inside} inside, ${outside} outside`,
+    );
     await studio.page.keyboard.press("Escape");
     await studio.click("#clear-region");
     await studio.until((now) => now.settings["water.dry_region"].length === 0);

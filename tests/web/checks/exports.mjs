@@ -9,6 +9,9 @@ const LEAF = "leaf=ivy&seed=1&vertices=400&s.iterations=12&i=12";
 // Sines of another library differ by an ulp; see tests/studio/same_as_native.mjs.
 const TOLERANCE = 1e-6; // of the leaf's length
 
+// A normal map without tangents: viewers make them alike (MikkTSpace), as glTF has them do. The program's files have it too.
+const GENERATED_TANGENTS = "MESH_PRIMITIVE_GENERATED_TANGENT_SPACE";
+
 /** Chooses from the export menu; [file name, bytes]. */
 async function exported(studio, id) {
   await studio.click("#export");
@@ -37,7 +40,8 @@ export default {
     assert.match(await closeDialog(studio), /^wilt simulate ivy --vertices 400 --seed 1 --config run.toml -o ivy.glb$/);
     const validator = createRequire(join(resolve(nodeFolder), "package.json"))("gltf-validator");
     const report = await validator.validateBytes(new Uint8Array(bytes));
-    assert.equal(report.issues.numErrors + report.issues.numWarnings, 0, JSON.stringify(report.issues.messages.slice(0, 3)));
+    const faults = report.issues.messages.filter(({ code }) => code !== GENERATED_TANGENTS);
+    assert.deepEqual(faults, []);
     assert.equal(report.info.animationCount, 1);
     assert.ok(report.info.hasMorphTargets);
   },
@@ -55,7 +59,9 @@ export default {
         const native = lastSample(join(scratch, "same.pc2"));
         const { share, moved } = await studio.core((_, list, app) => {
           const { frames, info } = app.active;
-          const most = (a, b) => a.reduce((sum, value, i) => Math.max(sum, Math.abs(value - b[i])), a.length === b.length ? 0 : Infinity) / info.length;
+          const most = (a, b) =>
+            a.reduce((sum, value, i) => Math.max(sum, Math.abs(value - b[i])), a.length === b.length ? 0 : Infinity) /
+            info.length;
           return { share: most(frames.at(-1).positions, list), moved: most(frames.at(-1).positions, frames[0].positions) };
         }, Array.from(native));
         console.log(`  ${name}, ${model}: ${share.toExponential(1)} of its length apart, moved by ${moved.toFixed(2)}`);
@@ -68,7 +74,8 @@ export default {
     const [name, bytes] = await exported(studio, "png");
     assert.match(name, /\.png$/);
     const box = await studio.page.locator("#canvas").boundingBox();
-    assert.deepEqual([bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [2 * box.width, 2 * box.height].map(Math.round));
+    const [across, down] = [bytes.readUInt32BE(16) - 2 * box.width, bytes.readUInt32BE(20) - 2 * box.height];
+    assert.ok(Math.max(Math.abs(across), Math.abs(down)) <= 1, `${across}, ${down} pixels off`);
     assert.ok(bytes.length > 20_000, `${bytes.length} bytes`);
   },
 
@@ -83,7 +90,11 @@ export default {
     const { leaf, metrics } = JSON.parse(report.toString());
     assert.equal(leaf.vertices, state.leaf.vertices);
     const curl = await studio.core((_, __, app) => app.active.frames.at(-1).curl);
-    assert.ok(Math.abs((metrics.curl * 180) / Math.PI - curl) < 1e-3 * Math.max(1, Math.abs(curl)) || Math.abs(metrics.curl - curl) < 1e-3 * Math.max(1, Math.abs(curl)), `${metrics.curl}, ${curl}`);
+    assert.ok(
+      Math.abs((metrics.curl * 180) / Math.PI - curl) < 1e-3 * Math.max(1, Math.abs(curl)) ||
+        Math.abs(metrics.curl - curl) < 1e-3 * Math.max(1, Math.abs(curl)),
+      `${metrics.curl}, ${curl}`,
+    );
     const [, veins] = await exported(studio, "veins");
     assert.equal(JSON.parse(veins.toString()).tips.length, state.leaf.tips);
   },
@@ -91,9 +102,7 @@ export default {
   // Oracle: the container's own mark, and a length of its own.
   async aFilm({ studio, assert }) {
     await studio.page.setViewportSize({ width: 480, height: 400 });
-    studio.page.setDefaultTimeout(60_000);
     const [name, bytes] = await exported(studio, "film");
-    studio.page.setDefaultTimeout(15_000);
     await studio.page.setViewportSize({ width: 900, height: 640 });
     if (name.endsWith(".webm")) assert.equal(bytes.readUInt32BE(0), 0x1a45dfa3);
     else assert.equal(bytes.toString("latin1", 4, 8), "ftyp");

@@ -25,7 +25,9 @@ function nativePositions(wilt, file, scratch) {
   execFileSync(wilt, ["-q", "leaf", file, "-o", out]);
   const { json, vectors } = parseGlb(readFileSync(out));
   const metres = Number(/"metres_per_unit":([^,}]+)/.exec(JSON.stringify(json))[1]);
-  return vectors(json.meshes.find(({ name }) => name === "blade").primitives[0].attributes.POSITION).map((value) => metres * value);
+  return vectors(json.meshes.find(({ name }) => name === "blade").primitives[0].attributes.POSITION).map(
+    (value) => metres * value,
+  );
 }
 
 /** How far the leaf at rest is from the same points moved and turned; shares of its length. */
@@ -44,7 +46,10 @@ const apart = (studio, positions) =>
   }, Array.from(positions));
 
 async function opened(studio, kind, name) {
-  const state = await studio.until((now, [k, n]) => now.source.kind === k && now.source.name === n && now.leaf && !now.busy, [kind, name]);
+  const state = await studio.until(
+    (now, [k, n]) => now.source.kind === k && now.source.name === n && now.leaf && !now.busy,
+    [kind, name],
+  );
   await studio.page.evaluate(() => globalThis.wiltStudio.app.playback.pause());
   return state;
 }
@@ -53,17 +58,37 @@ async function opened(studio, kind, name) {
 function asPly(obj) {
   const lines = obj.split("\n");
   const vertices = lines.filter((line) => line.startsWith("v ")).map((line) => line.slice(2));
-  const faces = lines.filter((line) => line.startsWith("f ")).map((line) => line.slice(2).trim().split(/\s+/).map((corner) => parseInt(corner) - 1));
+  const faces = lines
+    .filter((line) => line.startsWith("f "))
+    .map((line) =>
+      line
+        .slice(2)
+        .trim()
+        .split(/\s+/)
+        .map((corner) => parseInt(corner) - 1),
+    );
   return `ply\nformat ascii 1.0\nelement vertex ${vertices.length}\nproperty float x\nproperty float y\nproperty float z\nelement face ${faces.length}\nproperty list uchar int vertex_indices\nend_header\n${vertices.join("\n")}\n${faces.map((face) => `3 ${face.join(" ")}`).join("\n")}\n`;
 }
 
 function asStl(obj) {
   const lines = obj.split("\n");
   const vertices = lines.filter((line) => line.startsWith("v ")).map((line) => line.slice(2).trim().split(/\s+/).map(Number));
-  const faces = lines.filter((line) => line.startsWith("f ")).map((line) => line.slice(2).trim().split(/\s+/).map((corner) => parseInt(corner) - 1));
+  const faces = lines
+    .filter((line) => line.startsWith("f "))
+    .map((line) =>
+      line
+        .slice(2)
+        .trim()
+        .split(/\s+/)
+        .map((corner) => parseInt(corner) - 1),
+    );
   const bytes = Buffer.alloc(84 + 50 * faces.length);
   bytes.writeUInt32LE(faces.length, 80);
-  faces.forEach((face, f) => face.forEach((vertex, c) => vertices[vertex].forEach((value, k) => bytes.writeFloatLE(value, 84 + 50 * f + 12 + 12 * c + 4 * k))));
+  faces.forEach((face, f) =>
+    face.forEach((vertex, c) =>
+      vertices[vertex].forEach((value, k) => bytes.writeFloatLE(value, 84 + 50 * f + 12 + 12 * c + 4 * k)),
+    ),
+  );
   return bytes;
 }
 
@@ -76,7 +101,20 @@ function bladeOnly(obj) {
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="90mm" height="120mm" viewBox="0 0 90 120"><style>.leaf { fill: #395 }</style>
   <script>globalThis.wasRun = true</script><rect width="90" height="120" fill="white"/>
   <g transform="translate(45 10) scale(1.5)"><path class="leaf" d="M0,0C18,6 24,32 0,56C-24,32 -18,6 0,0z"/></g></svg>`;
-const OUTLINE = JSON.stringify({ outline: [[0, 0], [20, 10], [28, 30], [14, 52], [0, 70], [-14, 52], [-28, 30], [-20, 10]], petiole: [0, 0], mm_per_unit: 1 });
+const OUTLINE = JSON.stringify({
+  outline: [
+    [0, 0],
+    [20, 10],
+    [28, 30],
+    [14, 52],
+    [0, 70],
+    [-14, 52],
+    [-28, 30],
+    [-20, 10],
+  ],
+  petiole: [0, 0],
+  mm_per_unit: 1,
+});
 
 /** Meshes of the program, and drawings. */
 async function meshFiles(scratch, wilt) {
@@ -85,7 +123,7 @@ async function meshFiles(scratch, wilt) {
     for (const name of ["ivy.obj", "whole.glb"]) execFileSync(wilt, ["-q", "leaf", "ivy", "--vertices", "400", "-o", path(name)]);
     const blade = bladeOnly(readFileSync(path("ivy.obj"), "utf8"));
     writeFileSync(path("blade.ply"), asPly(blade));
-    writeFileSync(path("blade.stl"), asStl(blade));
+    writeFileSync(path("solid.stl"), asStl(blade));
     writeFileSync(path("drawn.svg"), SVG);
     writeFileSync(path("outline.json"), OUTLINE);
     execFileSync(wilt, ["-q", "simulate", "ivy", "--vertices", "400", "--iterations", "8", "-o", path("run.glb")]);
@@ -93,7 +131,14 @@ async function meshFiles(scratch, wilt) {
   return path;
 }
 
-const KINDS = { "ivy.obj": "mesh", "whole.glb": "mesh", "blade.ply": "mesh", "blade.stl": "mesh", "drawn.svg": "drawing", "outline.json": "outline" };
+const KINDS = {
+  "ivy.obj": "mesh",
+  "whole.glb": "mesh",
+  "blade.ply": "mesh",
+  "solid.stl": "mesh",
+  "drawn.svg": "drawing",
+  "outline.json": "outline",
+};
 
 export default {
   // Oracle: `wilt leaf FILE`. A file's own vertices are kept to single precision; an outline is meshed by the same code in
@@ -139,7 +184,6 @@ export default {
     const grape = join(shared, "grape_traced/Almeria_K0130A.jpg");
     const photos = [join(scratch, "stalked.png"), join(scratch, "lobed.jpg"), ...(existsSync(grape) ? [grape] : [])];
     const expected = JSON.parse(execFileSync(nativeCutOut, [scratch, ...photos], { maxBuffer: 1 << 30 }));
-    studio.page.setDefaultTimeout(60_000);
     for (const [k, photo] of photos.entries()) {
       await studio.drop(photo);
       await opened(studio, "photo", basename(photo).split(".")[0]);
@@ -148,20 +192,30 @@ export default {
       console.log(`  ${basename(photo)}: outlines ${pixels.toFixed(2)} pixels apart`);
       assert.ok(pixels <= 2, `${pixels} pixels`);
     }
-    studio.page.setDefaultTimeout(15_000);
   },
 
   // Negative: each is refused by its name, in words; the leaf that was there stays.
   async brokenFilesAreRefused({ studio, assert, scratch, wilt }) {
     const path = await meshFiles(scratch, wilt);
     const { leaf } = await studio.leaf("leaf=willow&seed=1&vertices=400");
-    const cut = (name, share) => ({ name: `cut-${name}`, bytes: readFileSync(path(name)).subarray(0, Math.floor(share * readFileSync(path(name)).length)) });
+    const cut = (name, share) => ({
+      name: `cut-${name}`,
+      bytes: readFileSync(path(name)).subarray(0, Math.floor(share * readFileSync(path(name)).length)),
+    });
     const broken = [
       [cut("whole.glb", 0.5), /cannot be read as a mesh/],
       [{ name: "no-face.obj", bytes: Buffer.from("v 0 0 0\nv 1 0 0\nv 0 1 0\n") }, /there is no face/],
       [{ name: "wrong-face.obj", bytes: Buffer.from("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n") }, /not finite or not in the file/],
-      [{ name: "points.ply", bytes: Buffer.from("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n") }, /no faces/],
-      [cut("blade.stl", 0.7), /no kind of leaf file|cannot be read|mesh/],
+      [
+        {
+          name: "points.ply",
+          bytes: Buffer.from(
+            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n",
+          ),
+        },
+        /no faces/,
+      ],
+      [cut("solid.stl", 0.7), /no kind of leaf file|cannot be read|mesh/],
       [{ name: "torn.svg", bytes: Buffer.from(SVG.slice(0, 300)) }, /cannot be read as SVG/],
       [{ name: "empty.svg", bytes: Buffer.from('<svg xmlns="http://www.w3.org/2000/svg"/>') }, /no filled path/],
       [{ name: "wrong.json", bytes: Buffer.from('{"outline": [[0, 0], [1, "a"], [2, 2]]}') }, /outline\[1\]/],

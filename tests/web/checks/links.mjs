@@ -22,7 +22,9 @@ const positions = (studio) => studio.core((_, __, app) => Array.from(app.frame()
 export default {
   // Oracle: the core's positions there, bit for bit.
   async bringsEverythingBack({ studio, browser, assert }) {
-    await studio.leaf("leaf=grape&seed=4&vertices=400&s.iterations=20&s.water.loss_rate=1.7&c.5.water.humidity=0.2&i=9&field=dryness&veins=1");
+    await studio.leaf(
+      "leaf=grape&seed=4&vertices=400&s.iterations=20&s.water.loss_rate=0.03&c.5.water.humidity=0.2&i=9&field=dryness&veins=1",
+    );
     await studio.click("#tab-edit");
     await studio.click('#tip-list button[aria-label="Remove r1"]');
     await studio.until((now) => now.edits.removed.length === 1 && !now.busy);
@@ -43,7 +45,10 @@ export default {
   // Negative: a link that asks for what there is not says so, and the page works.
   async aWrongLinkIsSaid({ studio, assert }) {
     await studio.leaf("leaf=ivy&seed=1&vertices=400");
-    for (const [hash, words] of [["leaf=oak&seed=1", "'oak'"], ["leaf=ivy&vertices=400&s.water.humidity=7", "water.humidity"]]) {
+    for (const [hash, words] of [
+      ["leaf=oak&seed=1", "'oak'"],
+      ["leaf=ivy&vertices=400&s.water.humidity=7", "water.humidity"],
+    ]) {
       await studio.page.evaluate((text) => (location.hash = text), hash);
       await studio.page.waitForSelector(`#messages .error:has-text("${words}")`);
       await studio.until((now) => now.leaf && !now.busy);

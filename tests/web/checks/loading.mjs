@@ -28,7 +28,10 @@ export default {
     assert.ok((await coloursOf(studio.page, "#canvas")) > 40, "a leaf is drawn");
     const moved = await studio.core((core, _, app) => {
       const [first, last] = [app.active.frames[0], app.active.frames.at(-1)];
-      return first.positions.reduce((most, value, i) => Math.max(most, Math.abs(value - last.positions[i])), 0) / app.active.info.length;
+      return (
+        first.positions.reduce((most, value, i) => Math.max(most, Math.abs(value - last.positions[i])), 0) /
+        app.active.info.length
+      );
     });
     assert.ok(moved > 1e-3, `moved by ${moved} lengths`);
   },
@@ -41,7 +44,9 @@ export default {
       for (let k = 0; k < 20; ++k) list.push((await core.step()).milliseconds);
       return list.sort((a, b) => a - b);
     });
-    console.log(`  2,000 vertices in the worker: median ${times[10].toFixed(1)} ms, longest ${times[19].toFixed(1)} ms an iteration`);
+    console.log(
+      `  2,000 vertices in the worker: median ${times[10].toFixed(1)} ms, longest ${times[19].toFixed(1)} ms an iteration`,
+    );
     assert.equal(times.length, 20);
   },
 };

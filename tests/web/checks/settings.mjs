@@ -51,7 +51,10 @@ export default {
     await studio.until((now) => now.changes.some((change) => change.key === "water.humidity"));
     await studio.page.fill("#scrub", "16");
     const state = await studio.until((now) => now.shown === 16);
-    assert.deepEqual(state.changes.map(({ iteration, key, value }) => [iteration, key, value]), [[8, "water.humidity", 1]]);
+    assert.deepEqual(
+      state.changes.map(({ iteration, key, value }) => [iteration, key, value]),
+      [[8, "water.humidity", 1]],
+    );
     const left = await studio.core((_, __, app) => app.active.frames.map((frame) => frame.waterLeft));
     assert.ok(left[0] - left[8] > 0.01, `${left[0] - left[8]} of the water was lost before`);
     assert.ok(Math.abs(left[8] - left[16]) < 1e-6, `${left[8] - left[16]} was lost after`);
@@ -126,7 +129,10 @@ export default {
     await studio.click("#tab-all");
     const keys = await studio.core(async (core) => (await core.settings()).map((setting) => setting.key));
     const rows = await studio.page.$$eval("#panel-all [data-key]", (list) => list.map((row) => row.dataset.key));
-    assert.deepEqual(keys.filter((key) => !rows.includes(key)).sort(), ["frames", "seed", "species", "vertices"].filter((key) => keys.includes(key)));
+    assert.deepEqual(
+      keys.filter((key) => !rows.includes(key)).sort(),
+      ["frames", "seed", "species", "vertices"].filter((key) => keys.includes(key)),
+    );
     await studio.page.fill("#search", "humidity");
     const seen = await studio.page.locator("#panel-all .setting:visible").count();
     assert.ok(seen >= 1 && seen < 10, `${seen} rows for humidity`);

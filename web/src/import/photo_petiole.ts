@@ -96,17 +96,16 @@ interface Fan {
 // Veins that leave a pixel: the strongest rays, at least 20 degrees apart.
 function fanAt(rays: Float32Array[], pixel: number): Fan {
   const apart = DIRECTIONS / 18;
-  const order = rays.map((_, k) => k).sort((a, b) => rays[b][pixel] - rays[a][pixel] || a - b);
+  const left = rays.map((ray) => ray[pixel]);
   const directions: number[] = [];
-  for (const k of order) {
-    const isApart = directions.every((other) => {
-      const between = Math.abs(k - other);
-      return Math.min(between, DIRECTIONS - between) >= apart;
-    });
-    if (isApart) directions.push(k);
-    if (directions.length === MOST_VEINS) break;
+  const strengths: number[] = [];
+  while (directions.length < MOST_VEINS) {
+    let strongest = 0;
+    for (let k = 1; k < DIRECTIONS; ++k) if (left[k] > left[strongest]) strongest = k;
+    directions.push(strongest);
+    strengths.push(left[strongest]);
+    for (let k = 1 - apart; k < apart; ++k) left[(strongest + k + DIRECTIONS) % DIRECTIONS] = -1;
   }
-  const strengths = directions.map((k) => rays[k][pixel]);
   // A fork is as good as its fifth vein is strong, and better for every further one.
   const score = strengths[2] + strengths[3] + 2 * strengths[4] + 0.5 * strengths[5];
   return { score, directions, strengths };
