@@ -14,6 +14,7 @@
 #include "wilt/core/srgb.hpp"
 #include "wilt/output/beside.hpp"
 #include "wilt/output/coordinates.hpp"
+#include "wilt/output/gltf.hpp"
 #include "wilt/output/obj.hpp"
 #include "wilt/output/ply.hpp"
 #include "wilt/output/point_cache.hpp"
@@ -85,6 +86,18 @@ TEST_F(Formats, AssimpReadsTheObjWithItsMaterial) {
   stalk.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
   EXPECT_NEAR(colour.r, encode_srgb(0.5), 1e-4);
   EXPECT_NEAR(colour.b, encode_srgb(0.2), 1e-4);
+}
+
+// Oracle: assimp's reader, which `wilt leaf` reads meshes with.
+TEST(Glb, IsReadAgainAsAMesh) {
+  test::Sample sample;
+  test::hold_most(sample);
+  const std::string bytes = glb_bytes(sample.clip());
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "glb");
+  ASSERT_NE(scene, nullptr) << importer.GetErrorString();
+  ASSERT_EQ(scene->mNumMeshes, 2U);
+  EXPECT_EQ(scene->mMeshes[0]->mNumFaces, static_cast<unsigned>(sample.leaf.mesh.num_faces()));
 }
 
 // Oracle: assimp's reader; the sample's colours.

@@ -104,6 +104,7 @@ void GlbBuilder::fill_difference(int number, const Floats& values, bool bounds) 
   std::vector<std::uint32_t> moved;
   for (Eigen::Index row = 0; row < values.rows(); ++row)
     if ((values.row(row).array() != 0.0F).any()) moved.push_back(static_cast<std::uint32_t>(row));
+  if (moved.empty()) moved.push_back(0);  // readers like assimp refuse an accessor without any data
   const IndexType index(static_cast<std::size_t>(values.rows()));
   const std::size_t indices_size = padded(moved.size() * index.size);
   const std::size_t size = indices_size + moved.size() * kRowSize;
@@ -120,44 +121,25 @@ void GlbBuilder::fill_difference(int number, const Floats& values, bool bounds) 
   }
   view.byteLength = size;
   view.target = 0;
-  if (!moved.empty()) {  // an accessor without any data is all zeros
-    accessor.sparse.isSparse = true;
-    accessor.sparse.count = static_cast<int>(moved.size());
-    accessor.sparse.indices.bufferView = accessor.bufferView;
-    accessor.sparse.indices.byteOffset = 0;
-    accessor.sparse.indices.componentType = index.component;
-    accessor.sparse.values.bufferView = accessor.bufferView;
-    accessor.sparse.values.byteOffset = static_cast<int>(indices_size);
-  }
+  accessor.sparse.isSparse = true;
+  accessor.sparse.count = static_cast<int>(moved.size());
+  accessor.sparse.indices.bufferView = accessor.bufferView;
+  accessor.sparse.indices.byteOffset = 0;
+  accessor.sparse.indices.componentType = index.component;
+  accessor.sparse.values.bufferView = accessor.bufferView;
+  accessor.sparse.values.byteOffset = static_cast<int>(indices_size);
   accessor.bufferView = -1;
 }
 
 void GlbBuilder::pack() {
-  std::vector<tinygltf::BufferView> kept;
-  std::vector<int> number(model.bufferViews.size(), -1);
   std::size_t end = 0;
-  for (std::size_t i = 0; i < model.bufferViews.size(); ++i) {
-    tinygltf::BufferView view = model.bufferViews[i];
-    if (view.byteLength == 0) continue;
+  for (tinygltf::BufferView& view : model.bufferViews) {
     end = padded(end);
     std::memmove(binary.data() + end, binary.data() + view.byteOffset, view.byteLength);
     view.byteOffset = end;
     end += view.byteLength;
-    number[i] = static_cast<int>(kept.size());
-    kept.push_back(view);
   }
   binary.resize(end);
-  model.bufferViews = std::move(kept);
-  const auto renumber = [&number](int& view) {
-    if (view >= 0) view = number[static_cast<std::size_t>(view)];
-  };
-  for (tinygltf::Accessor& accessor : model.accessors) {
-    renumber(accessor.bufferView);
-    if (!accessor.sparse.isSparse) continue;
-    renumber(accessor.sparse.indices.bufferView);
-    renumber(accessor.sparse.values.bufferView);
-  }
-  for (tinygltf::Image& image : model.images) renumber(image.bufferView);
 }
 
 }  // namespace wilt
