@@ -3,6 +3,7 @@ import type { App } from "./app";
 import { byId } from "./dom";
 
 const kEvery = 4000; // ms, while it plays
+const kSettled = 700; // ms after the last movement
 
 export function buildAnnouncements(app: App): void {
   let last = 0;
@@ -14,8 +15,11 @@ export function buildAnnouncements(app: App): void {
       `Iteration ${frame.iteration} of ${app.playback.iterations}: ${Math.round(100 * frame.waterLeft)} per cent of the water left, ` +
       `curl ${Math.round(frame.curl)} degrees, wrinkle ${(100 * frame.wrinkle).toFixed(1)} per cent of the length`;
   };
+  let timer = 0;
   app.playback.events.on("moved", () => {
+    clearTimeout(timer);
     if (performance.now() - last > kEvery) say();
+    else timer = window.setTimeout(say, kSettled);
   });
   app.playback.events.on("playing", say);
   app.events.on("leaf", (session) => {

@@ -84,6 +84,7 @@ export class App {
   removeSession(): void {
     const session = this.sessions.pop();
     session?.close();
+    if (session) this.undo.forget(session);
     this.stage?.setLeaf(this.sessions.length, undefined);
     this.choose(this.sessions[0]!);
     this.reframe();
@@ -99,19 +100,21 @@ export class App {
   async load(recipe: Recipe, what: string): Promise<boolean> {
     const session = this.active;
     const before = session.info && session.recipe();
-    const forget = before && this.undo.push(what, () => session.restore(before));
+    const forget = before && this.undo.push(what, session, () => session.restore(before));
     try {
       await session.load(recipe);
     } catch (error) {
       forget?.();
-      this.messages.error((error as Error).message);
+      const said = (error as Error).message;
+      const { file, source } = recipe;
+      this.messages.error(file && !said.includes(source.name) ? `'${file.name}': ${said}` : said);
       this.events.emit("config", session);
       return false;
     }
     this.messages.forgetNotes();
     for (const note of session.info?.notes ?? []) {
       // What was asked for needs no saying, and there is no command line here.
-      if (!note.startsWith("petiole as given"))
+      if (!/^petiole as given|--leaf N/.test(note))
         this.messages.tell(note.replace("give --petiole X,Y", "move it: Edit, Move the petiole"));
     }
     return true;
@@ -133,7 +136,7 @@ export class App {
   remember(what: string): void {
     const session = this.active;
     const before = session.recipe();
-    this.undo.push(what, () => session.restore(before));
+    this.undo.push(what, session, () => session.restore(before));
   }
 
   look(change: Partial<Shown>): void {

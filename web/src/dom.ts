@@ -3,7 +3,7 @@
 type Child = Node | string | undefined;
 type Attributes = Record<string, string | number | boolean | undefined | ((event: never) => void)>;
 
-/** <tag ...attributes>children</tag>; a function is a listener ("input", "click", ...), false and undefined are left out. */
+/** <tag ...attributes>children</tag>; a function is a listener ("input", ...), false and undefined are left out. */
 export function element<K extends keyof HTMLElementTagNameMap>(
   tag: K,
   attributes: Attributes = {},

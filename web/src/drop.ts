@@ -9,14 +9,17 @@ async function open(app: App, file: File, nth = 1): Promise<void> {
     const { readLeafFile } = await import("./import/read_leaf");
     const said = (share: number, what: string) =>
       progress.say(`${file.name}: ${what}, ${Math.round(100 * share)} %`);
-    const { source, notes, leaves = 1 } = await readLeafFile(file, app.active.core, said, { nth });
-    const recipe = { source, edits: { added: [], removed: [] }, config: emptyConfig() };
+    const { source, notes, leaves: inPhoto = 1 } = await readLeafFile(file, app.active.core, said, { nth });
+    const edits = { added: [], removed: [] };
+    const recipe = { source, file: { name: file.name, nth }, edits, config: emptyConfig() };
     if (!(await app.load(recipe, `opening ${file.name}`))) return;
     for (const note of notes) app.messages.tell(note);
+    const inDrawing = /has (\d+) leaf-like shapes/.exec(app.active.info?.notes.join(" ") ?? "");
+    const leaves = inDrawing ? Number(inDrawing[1]) : inPhoto;
     if (leaves > 1) {
       const next = (nth % leaves) + 1;
       app.messages.offer(
-        `The picture shows ${leaves} leaves; this is number ${nth} by size.`,
+        `${file.name} shows ${leaves} leaves; this is number ${nth} by size.`,
         `Take number ${next}`,
         () => void open(app, file, next),
       );

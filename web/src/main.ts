@@ -78,7 +78,7 @@ function build(messages: Messages): App {
 function run(app: App): void {
   let last = performance.now();
   const tick = (now: number) => {
-    app.playback.tick(Math.min(0.1, (now - last) / 1000));
+    app.playback.tick(Math.min(0.5, (now - last) / 1000));
     last = now;
     app.stage?.draw();
     requestAnimationFrame(tick);

@@ -4,6 +4,7 @@ import type { Session } from "./session";
 
 export const SPEEDS = [0.25, 0.5, 1, 2, Infinity];
 const kAhead = 2; // iterations: enough to interpolate, few enough that a slider answers at once
+const kFurthestAhead = 25; // where few pictures are drawn a second, or at full speed
 
 export class Playback {
   readonly events = new Emitter<{ playing: boolean; moved: number; ended: void }>();
@@ -65,9 +66,9 @@ export class Playback {
   tick(seconds: number): void {
     if (!this.playing) return;
     const clip = Number(this.sessions()[0]?.setting("clip.seconds", 4));
-    const wish = this.speed === Infinity ? Infinity : this.playhead + (seconds * this.speed * 100) / clip;
-    const next = Math.max(this.playhead, Math.min(wish, this.head));
-    this.askFor(Math.min(wish, this.head) + kAhead);
+    const advance = (seconds * this.speed * 100) / clip;
+    const next = Math.max(this.playhead, Math.min(this.playhead + advance, this.head));
+    this.askFor(next + Math.min(kFurthestAhead, Math.max(kAhead, 2 * advance)));
     if (next !== this.playhead) this.moveTo(next);
     if (this.finished) {
       this.pause();

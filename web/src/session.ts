@@ -8,6 +8,7 @@ import {
   copyConfig,
   emptyConfig,
   settled,
+  valueAt,
   valueText,
 } from "./config";
 import { Emitter } from "./emitter";
@@ -15,6 +16,8 @@ import { Emitter } from "./emitter";
 /** All that makes a run; what undo and links go back to. */
 export interface Recipe {
   source: LeafSource;
+  /** The file that the leaf is from, and which of its leaves, by size, from 1. */
+  file?: { name: string; nth: number } | undefined;
   edits: VeinEdits;
   config: RunConfig;
 }
@@ -35,6 +38,7 @@ export class Session {
   readonly core: Comlink.Remote<Core>;
   readonly events = new Emitter<SessionEvents>();
   source: LeafSource = { kind: "species", name: "maple", seed: 1, vertices: 0 };
+  file: Recipe["file"];
   edits: VeinEdits = { added: [], removed: [] };
   config: RunConfig = emptyConfig();
   settings = new Map<string, Setting>();
@@ -82,22 +86,28 @@ export class Session {
     return this.wanted.get(key) ?? this.config.base.get(key) ?? this.settings.get(key)?.usual ?? otherwise;
   }
 
+  /** A setting after an iteration; what has been asked for and not yet been done counts. */
+  valueAt(setting: Setting, iteration: number): SettingValue {
+    return this.wanted.get(setting.key) ?? valueAt(this.config, setting, iteration);
+  }
+
   recipe(): Recipe {
     return {
       source: this.source,
+      file: this.file,
       edits: { added: [...this.edits.added], removed: [...this.edits.removed] },
       config: copyConfig(this.config),
     };
   }
 
-  /** Makes another leaf; when several are asked for at once the last one is made. Rejects with wilt's message: the leaf stays. */
-  load({ source, edits, config }: Recipe): Promise<void> {
+  /** Makes another leaf; of several that are asked for at once the last. Rejects with wilt's message: the leaf stays. */
+  load({ source, file, edits, config }: Recipe): Promise<void> {
     const ticket = ++this.tickets;
     return this.exclusive("Making the leaf", async () => {
       if (ticket !== this.tickets) return;
       const info = await this.core.load(source, edits, configToml(config));
       const [first, settings] = await Promise.all([this.core.frame(), this.core.settings()]);
-      Object.assign(this, { source, edits, config, info, textures: undefined });
+      Object.assign(this, { source, file, edits, config, info, textures: undefined });
       this.settings = new Map(settings.map((setting) => [setting.key, setting]));
       this.begin([first]);
       this.events.emit("leaf", info);
@@ -115,9 +125,9 @@ export class Session {
     return this.exclusive("", () => this.startNow(config));
   }
 
-  /** Starts again with the settings as they are now, without changes on the way. */
-  reset(): Promise<void> {
-    return this.exclusive("", () => this.startNow(settled(this.config, this.head)));
+  /** Starts again with the settings as they are after iteration `at`, without changes on the way. */
+  reset(at: number): Promise<void> {
+    return this.exclusive("", () => this.startNow(settled(this.config, at)));
   }
 
   /** Goes back to what was: a new leaf only where it must be. */
@@ -126,7 +136,7 @@ export class Session {
     return same && !this.remakes(recipe.config) ? this.restart(recipe.config) : this.load(recipe);
   }
 
-  /** A setting becomes another, live where it may; `at`: the iteration that is shown. Quick calls are put together. */
+  /** Another value, live where it may be; `at`: the iteration that is shown. Quick calls are put together. */
   set(key: string, value: SettingValue, at: number): void {
     this.wanted.set(key, value);
     this.wantedAt = at;
@@ -233,7 +243,14 @@ export class Session {
 
   private async settle(): Promise<void> {
     const entries = [...this.wanted];
-    this.wanted.clear();
+    try {
+      await this.apply(entries);
+    } finally {
+      for (const [key, value] of entries) if (this.wanted.get(key) === value) this.wanted.delete(key);
+    }
+  }
+
+  private async apply(entries: [string, SettingValue][]): Promise<void> {
     const at = Math.min(this.wantedAt, this.head);
     const live =
       this.head > 0 &&
@@ -243,7 +260,7 @@ export class Session {
       const config = settled(this.config, at);
       for (const [key, value] of entries) config.base.set(key, value);
       if (this.remakes(config))
-        void this.load({ source: this.source, edits: this.edits, config }).catch((error: Error) =>
+        void this.load({ ...this.recipe(), config }).catch((error: Error) =>
           this.events.emit("failed", error),
         );
       else await this.startNow(config);

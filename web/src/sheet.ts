@@ -9,17 +9,17 @@ export function buildSheet(): void {
     main.classList.toggle("sheet-open", is);
     handle.setAttribute("aria-expanded", String(is));
   };
+  let dragged = false;
   handle.addEventListener("pointerdown", (event) => {
     from = event.clientY;
     handle.setPointerCapture(event.pointerId);
   });
   handle.addEventListener("pointerup", (event) => {
-    if (Math.abs(event.clientY - from) > 20) open(event.clientY < from);
-    else open(!main.classList.contains("sheet-open"));
+    dragged = Math.abs(event.clientY - from) > 20;
+    if (dragged) open(event.clientY < from);
   });
-  handle.addEventListener("keydown", (event) => {
-    if (event.key !== "Enter" && event.key !== " ") return;
-    event.preventDefault();
-    open(!main.classList.contains("sheet-open"));
+  handle.addEventListener("click", () => {
+    if (!dragged) open(!main.classList.contains("sheet-open"));
+    dragged = false;
   });
 }

@@ -6,6 +6,7 @@ import type { Toolbox } from "./tools/tool";
 import { resetAll } from "./transport";
 import { VIEWS } from "./viewer/framing";
 
+const kTurn = Math.PI / 18;
 const kKeys: [string, string][] = [
   ["Space", "Play, pause"],
   ["← →", "One iteration back, on; with Shift ten"],
@@ -13,6 +14,7 @@ const kKeys: [string, string][] = [
   ["R", "Start again, fresh, with these settings"],
   ["F", "Show all of the leaf"],
   [`1 to ${VIEWS.length}`, "Views: from above, from the side, ..."],
+  ["W A S D, + −", "Turn the view; nearer, away"],
   ["Ctrl Z", "Take back"],
   ["Escape", "Leave a tool, close a menu"],
   ["?", "This help"],
@@ -77,6 +79,13 @@ export function buildShortcuts(app: App, tools: Toolbox | undefined): void {
     End: () => playback.stepBy(playback.iterations),
     r: () => void resetAll(app),
     f: () => stage?.fit(),
+    a: () => stage?.orbit(-kTurn, 0),
+    d: () => stage?.orbit(kTurn, 0),
+    w: () => stage?.orbit(0, kTurn),
+    s: () => stage?.orbit(0, -kTurn),
+    "+": () => stage?.zoom(0.9),
+    "=": () => stage?.zoom(0.9),
+    "-": () => stage?.zoom(1 / 0.9),
     "?": () => byId("help").click(),
     Escape: () => tools?.choose(undefined),
   };

@@ -1,6 +1,6 @@
 // What the page is doing, as plain data: for tests.
 import type { App } from "./app";
-import { configToml, valueAt } from "./config";
+import { configToml } from "./config";
 import type { Session } from "./session";
 
 /** Settings as they are after iteration `at`. */
@@ -26,7 +26,7 @@ function sessionState(session: Session, at: number) {
     config: configToml(config),
     changes: config.changes,
     settings: Object.fromEntries(
-      [...session.settings].map(([key, setting]) => [key, valueAt(config, setting, at)]),
+      [...session.settings].map(([key, setting]) => [key, session.valueAt(setting, at)]),
     ),
     frames: frames.length,
     head: session.head,

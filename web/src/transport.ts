@@ -124,9 +124,9 @@ export function buildTransport(app: App): void {
 
 /** Fresh again, with the settings as they are now. */
 export async function resetAll(app: App): Promise<void> {
-  app.playback.pause();
+  const at = app.playback.shown;
   app.remember("Start again");
-  await Promise.all(app.sessions.map((session) => session.reset()));
   app.playback.pause();
   app.playback.scrub(0);
+  await Promise.all(app.sessions.map((session) => session.reset(at)));
 }

@@ -3,16 +3,16 @@ import { Emitter } from "./emitter";
 
 export class Undo {
   readonly events = new Emitter<{ changed: void }>();
-  private readonly steps: { what: string; back: () => Promise<void> }[] = [];
+  private steps: { what: string; of: object; back: () => Promise<void> }[] = [];
 
   /** What the next undo takes back; "": nothing. */
   get next(): string {
     return this.steps.at(-1)?.what ?? "";
   }
 
-  /** Returns what forgets the step, when nothing came of it. */
-  push(what: string, back: () => Promise<void>): () => void {
-    const step = { what, back };
+  /** `of`: what is changed. Returns what forgets the step, when nothing came of it. */
+  push(what: string, of: object, back: () => Promise<void>): () => void {
+    const step = { what, of, back };
     this.steps.push(step);
     if (this.steps.length > 100) this.steps.shift();
     this.events.emit("changed", undefined);
@@ -21,6 +21,12 @@ export class Undo {
       if (at >= 0) this.steps.splice(at, 1);
       this.events.emit("changed", undefined);
     };
+  }
+
+  /** Something is no longer there. */
+  forget(of: object): void {
+    this.steps = this.steps.filter((step) => step.of !== of);
+    this.events.emit("changed", undefined);
   }
 
   /** What was taken back; "": nothing was left. */

@@ -1,6 +1,6 @@
 // Every setting that wilt has, with unit, range and help, and a search.
 import type { App } from "../app";
-import { type SettingValue, parseValue, sameValue, valueAt, valueText } from "../config";
+import { type SettingValue, parseValue, sameValue, valueText } from "../config";
 import type { Setting } from "../core/protocol";
 import { element, shortNumber } from "../dom";
 
@@ -125,7 +125,7 @@ export function buildAllSettings(app: App): HTMLElement {
   };
   const update = () => {
     for (const { setting, row, show, back } of rows) {
-      const value = valueAt(app.active.config, setting, app.playback.shown);
+      const value = app.active.valueAt(setting, app.playback.shown);
       show(value);
       const changed = !sameValue(value, setting.usual);
       row.classList.toggle("changed", changed);

@@ -1,6 +1,5 @@
 // The third tab: tools for the pointer, and the same with the keyboard.
 import type { App } from "../app";
-import { valueAt } from "../config";
 import { element } from "../dom";
 import { regionAroundTip, regionOf } from "../tools/region";
 import { setTipForce, tipForces } from "../tools/forces";
@@ -157,12 +156,12 @@ export function buildEdit(app: App, box: Toolbox | undefined): HTMLElement {
   );
   let listed = "";
   const update = () => {
-    const { info, settings, config } = app.active;
+    const { info, settings } = app.active;
     factor.update();
     clear.disabled = regionOf(app).length === 0;
     const given = settings.get("external.forces");
     usual.hidden = given === undefined;
-    usual.disabled = given !== undefined && (valueAt(config, given, 0) as number[]).length === 0;
+    usual.disabled = given !== undefined && (app.active.valueAt(given, 0) as number[]).length === 0;
     const now = `${info?.name}${info?.tips.map((tip) => tip.s)}${tipForces(app)}`;
     if (!info || now === listed) return;
     listed = now;

@@ -1,6 +1,5 @@
 // A slider of one setting: follows the run, sends while it is dragged, goes back to the usual value with a double click.
 import type { App } from "../app";
-import { valueAt } from "../config";
 import { element, shortNumber } from "../dom";
 
 export interface SliderSpec {
@@ -47,7 +46,8 @@ export function settingSlider(app: App, spec: SliderSpec): { root: HTMLElement; 
     const setting = app.active.settings.get(spec.key);
     root.hidden = setting === undefined;
     if (!setting || dragged) return;
-    const value = shown(Number(valueAt(app.active.config, setting, app.playback.shown)));
+    input.max = String(Math.min(spec.max, shown(setting.max)));
+    const value = shown(Number(app.active.valueAt(setting, app.playback.shown)));
     if (value > Number(input.max)) input.max = String(value);
     input.value = String(value);
     say(value);

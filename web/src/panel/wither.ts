@@ -1,6 +1,6 @@
 // The first tab: which leaf, and the few sliders that everybody understands.
 import type { App } from "../app";
-import { emptyConfig, settled, valueAt } from "../config";
+import { emptyConfig, settled } from "../config";
 import type { LeafSource } from "../core/protocol";
 import { element } from "../dom";
 import { SPECIES } from "../species";
@@ -105,7 +105,13 @@ async function load(app: App, source: LeafSource): Promise<void> {
   const config = same ? settled(app.active.config, app.active.head) : emptyConfig();
   const edits =
     same && source.seed === app.active.source.seed ? app.active.edits : { added: [], removed: [] };
-  if (await app.load({ source, edits, config }, "another leaf")) app.playback.play();
+  if (
+    await app.load(
+      { source, file: source.kind === "species" ? undefined : app.active.file, edits, config },
+      "another leaf",
+    )
+  )
+    app.playback.play();
 }
 
 export function buildWither(app: App): HTMLElement {
@@ -134,7 +140,7 @@ export function buildWither(app: App): HTMLElement {
       id: "vertices",
       change: () => void load(app, { ...app.active.source, vertices: Number(vertices.value) }),
     },
-    ...[0, 1000, 2000, 5000, 10000, 20000].map((n) =>
+    ...[0, 500, 1000, 2000, 5000, 10000, 20000, 50000].map((n) =>
       element("option", { value: n }, n === 0 ? "usual" : n.toLocaleString("en")),
     ),
   );
@@ -161,7 +167,7 @@ export function buildWither(app: App): HTMLElement {
     ),
   );
   const update = () => {
-    const { source, config, settings } = app.active;
+    const { source, settings } = app.active;
     picker.update();
     for (const slider of sliders) slider.update();
     seed.value = String(source.seed);
@@ -171,7 +177,7 @@ export function buildWither(app: App): HTMLElement {
     vertices.value = String(source.vertices);
     const setting = settings.get("model");
     for (const input of models)
-      input.checked = setting !== undefined && valueAt(config, setting, 0) === input.value;
+      input.checked = setting !== undefined && app.active.valueAt(setting, 0) === input.value;
   };
   for (const kind of ["leaf", "config", "active"] as const) app.events.on(kind, update);
   app.playback.events.on("moved", () => {

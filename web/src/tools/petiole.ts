@@ -12,6 +12,7 @@ export async function movePetiole(app: App, place: number): Promise<void> {
   const { place: places } = session.info.margin;
   const petiole: [number, number] = [places[2 * place]!, places[2 * place + 1]!];
   const recipe = {
+    file: session.file,
     source: { ...session.source, petiole },
     edits: { added: [], removed: [] },
     config: settled(session.config, session.head),

@@ -1,7 +1,6 @@
 // A lasso around a part of the leaf that shall dry faster, or slower.
 import * as THREE from "three";
 import type { App } from "../app";
-import { valueAt } from "../config";
 import { byId } from "../dom";
 import type { Stage } from "../viewer/stage";
 import type { Tool } from "./tool";
@@ -53,7 +52,7 @@ export function setRegion(app: App, corners: Point[]): void {
 export function regionOf(app: App): Point[] {
   const setting = app.active.settings.get("water.dry_region");
   if (!setting) return [];
-  const list = valueAt(app.active.config, setting, app.playback.shown) as number[];
+  const list = app.active.valueAt(setting, app.playback.shown) as number[];
   return Array.from({ length: list.length / 2 }, (_, i) => [list[2 * i]!, list[2 * i + 1]!]);
 }
 

@@ -15,7 +15,7 @@ async function edit(app: App, edits: VeinEdits, what: string): Promise<void> {
   const config = settled(session.config, session.head);
   if (config.base.delete("external.forces"))
     app.messages.tell("The forces on the tips are as usual again: there are other tips now");
-  if (await app.load({ source: session.source, edits, config }, what)) app.playback.play();
+  if (await app.load({ ...session.recipe(), edits, config }, what)) app.playback.play();
 }
 
 /** The edits without what stands at s, and whether there was something. */

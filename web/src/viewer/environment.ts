@@ -1,4 +1,4 @@
-// The light around the leaf: a bright sky, two soft boxes, a warm floor; as a light probe, which any machine can afford.
+// The light around the leaf: a bright sky, two soft boxes, a warm floor; as a light probe, which is cheap everywhere.
 import * as THREE from "three";
 
 interface SoftBox {
@@ -64,4 +64,24 @@ export function gleam(): THREE.Light[] {
     box.position.copy(towards);
     return box;
   });
+}
+
+/** The sun: its shadow on the ground and on the leaf itself. */
+export function keyLight(): THREE.DirectionalLight {
+  const key = new THREE.DirectionalLight("#fff4e4", 2.4);
+  key.position.set(-2.2, 4, -0.6);
+  key.castShadow = true;
+  Object.assign(key.shadow.camera, { left: -2.2, right: 2.2, top: 2.2, bottom: -2.2, near: 0.5, far: 9 });
+  key.shadow.bias = -0.0006;
+  key.shadow.normalBias = 0.012;
+  return key;
+}
+
+/** A ground that is seen only where it is in the shade. */
+export function ground(shade: THREE.ShadowMaterial): THREE.Mesh {
+  const plane = new THREE.Mesh(new THREE.CircleGeometry(8, 48), shade);
+  plane.rotation.x = -Math.PI / 2;
+  plane.position.y = -0.002;
+  plane.receiveShadow = true;
+  return plane;
 }

@@ -19,6 +19,9 @@ export const VIEWS: NamedView[] = [
   { name: "Close to the ground", around: 40, above: 5 },
 ];
 
+/** How much of the window's height and width a framed leaf fills. */
+export const FILLED = 0.9;
+
 export function direction({ around, above }: NamedView): THREE.Vector3 {
   const a = THREE.MathUtils.degToRad(around);
   const h = THREE.MathUtils.degToRad(above);
@@ -36,7 +39,7 @@ export function framed(
   const basis = new THREE.Matrix4().lookAt(towards, new THREE.Vector3(), camera.up);
   const [right, up, back] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
   basis.extractBasis(right, up, back);
-  const tanY = Math.tan(THREE.MathUtils.degToRad(camera.fov) / 2) * 0.9;
+  const tanY = Math.tan(THREE.MathUtils.degToRad(camera.fov) / 2) * FILLED;
   const tanX = tanY * camera.aspect;
   // Twice: the centre is moved to the middle of what is seen.
   let distance = 1;

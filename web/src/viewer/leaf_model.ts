@@ -88,9 +88,9 @@ export class LeafModel {
     this.natural.normalScale.set(relief, -relief);
     this.group.position.y =
       -Math.min(lowest(array(skin.position)), lowest(array(stalk.position))) / this.info.length;
-    for (const part of [this.blade, this.stalk, this.veins]) {
-      for (const attribute of Object.values(part.geometry.attributes)) attribute.needsUpdate = true;
-    }
+    for (const moved of [skin.position, skin.normal, skin.color, stalk.position, stalk.normal])
+      moved!.needsUpdate = true;
+    this.veins.geometry.attributes.position!.needsUpdate = look.veins;
   }
 
   /** Where a point of the blade is now, in the scene. */

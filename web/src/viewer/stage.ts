@@ -3,21 +3,15 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Emitter } from "../emitter";
 import type { LeafInfo, Textures } from "../core/protocol";
-import { ambientLight, gleam } from "./environment";
-import { VIEWS, direction, framed } from "./framing";
+import { ambientLight, gleam, ground, keyLight } from "./environment";
+import { FILLED, VIEWS, direction, framed } from "./framing";
+import { FULL_DETAIL, LEVELS, REST, SLOW } from "./detail";
 import { warmUp } from "./leaf_material";
 import { LeafModel, type Look, type Moment } from "./leaf_model";
 
 /** The mark in the browser's performance time line when the first leaf is drawn. */
 export const FIRST_PICTURE = "wilt-first-picture";
-const kSlow = 45; // ms between pictures
-const kRest = 500; // ms without movement until a slow machine draws in full detail
-const kFullDetail = Math.min(devicePixelRatio, 2);
-const kLevels = [
-  { pixels: 1, shadow: 1024, blur: 12 },
-  { pixels: 0.75, shadow: 512, blur: 6 },
-  { pixels: 0.5, shadow: 512, blur: 4 },
-];
+const kMostEnclosed = 2000; // points
 const kBetween = 1.25; // leaf lengths between two leaves that are compared
 
 export class Stage {
@@ -27,10 +21,11 @@ export class Stage {
   readonly scene = new THREE.Scene();
   readonly camera = new THREE.PerspectiveCamera(28, 1, 0.02, 60);
   readonly controls: OrbitControls;
-  private readonly key = new THREE.DirectionalLight("#fff4e4", 2.4);
+  private readonly key = keyLight();
   private dirty = true;
   private following = true; // the camera is where a named view put it
   private view = 0;
+  private enclosed: THREE.Vector3[] = []; // by a named view
   private readonly shade = new THREE.ShadowMaterial();
   private level = 0;
   private intervals: number[] = [];
@@ -38,14 +33,14 @@ export class Stage {
   private lastDrawn = 0;
   private takingPictures = false;
   private rest = 0;
-  private detail = kFullDetail;
+  private detail = FULL_DETAIL;
 
   /** `slow`: pictures are drawn without a graphics processor. Throws where the browser has no WebGL 2. */
   constructor(
     readonly canvas: HTMLCanvasElement,
     slow: boolean,
   ) {
-    if (slow) this.level = kLevels.length - 1;
+    if (slow) this.level = LEVELS.length - 1;
     this.renderer = new THREE.WebGLRenderer({
       canvas,
       antialias: true,
@@ -55,7 +50,7 @@ export class Stage {
     this.renderer.toneMapping = THREE.NeutralToneMapping;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.VSMShadowMap;
-    this.scene.add(this.keyLight(), ...gleam(), ambientLight(), this.ground());
+    this.scene.add(this.key, ...gleam(), ambientLight(), ground(this.shade));
     this.controls = new OrbitControls(this.camera, canvas);
     Object.assign(this.controls, {
       enableDamping: true,
@@ -73,11 +68,8 @@ export class Stage {
   }
 
   setLeaf(side: number, info: LeafInfo | undefined): void {
-    const old = this.models[side];
-    if (old) {
-      this.scene.remove(old.group);
-      old.dispose();
-    }
+    this.models[side]?.group.removeFromParent();
+    this.models[side]?.dispose();
     this.models[side] = info && new LeafModel(info);
     if (this.models[side]) this.scene.add(this.models[side].group);
     this.models.forEach((model, i) => {
@@ -112,11 +104,12 @@ export class Stage {
   draw(): void {
     this.controls.update();
     if (!this.dirty || this.takingPictures || !this.models[0]) return;
+    if (this.following) this.keepInside();
     this.dirty = false;
     this.render(this.detail);
     this.keepUp(performance.now());
     clearTimeout(this.rest);
-    if (this.level > 0) this.rest = window.setTimeout(() => this.render(kFullDetail), kRest);
+    if (this.level > 0) this.rest = window.setTimeout(() => this.render(FULL_DETAIL), REST);
   }
 
   private render(detail: number): void {
@@ -146,6 +139,20 @@ export class Stage {
     this.events.emit("viewed", undefined);
   }
 
+  /** Turns the camera around what it looks at: radians to the right, and up. */
+  orbit(right: number, up: number): void {
+    const from = this.camera.position.clone().sub(this.controls.target);
+    const place = new THREE.Spherical().setFromVector3(from);
+    place.theta += right;
+    place.phi -= up;
+    this.lookFrom(from.setFromSpherical(place.makeSafe()));
+  }
+
+  /** Goes nearer, by a factor below 1, or away. */
+  zoom(factor: number): void {
+    this.lookFrom(this.camera.position.clone().sub(this.controls.target).multiplyScalar(factor));
+  }
+
   /** The camera as six numbers: where it is, what it looks at. */
   get cameraState(): number[] {
     return [...this.camera.position.toArray(), ...this.controls.target.toArray()];
@@ -161,7 +168,7 @@ export class Stage {
 
   /** 1, or the share of the pixels' side that this machine draws quickly. */
   get pixelShare(): number {
-    return kLevels[this.level]!.pixels;
+    return LEVELS[this.level]!.pixels;
   }
 
   get isNamedView(): boolean {
@@ -211,6 +218,13 @@ export class Stage {
     this.resize();
   }
 
+  private lookFrom(away: THREE.Vector3): void {
+    this.following = false;
+    this.camera.position.copy(this.controls.target).add(away);
+    this.invalidate();
+    this.events.emit("viewed", undefined);
+  }
+
   private resize(): void {
     const { clientWidth, clientHeight } = this.canvas.parentElement!;
     if (clientWidth === 0 || clientHeight === 0 || this.takingPictures) return;
@@ -223,13 +237,16 @@ export class Stage {
     this.draw();
   }
 
-  private frame(towards: THREE.Vector3): void {
-    const points = this.models.flatMap((model) => {
-      if (!model) return [];
-      model.group.updateMatrixWorld();
-      return model.outlinePoints();
+  private outline(): THREE.Vector3[] {
+    return this.models.flatMap((model) => {
+      model?.group.updateMatrixWorld();
+      return model?.outlinePoints() ?? [];
     });
-    if (points.length === 0) points.push(new THREE.Vector3(-0.5, 0, -1), new THREE.Vector3(0.5, 0.2, 0.2));
+  }
+
+  private frame(towards: THREE.Vector3, points = this.outline()): void {
+    this.enclosed = points;
+    if (points.length === 0) return;
     const { position, target } = framed(this.camera, points, towards);
     this.camera.position.copy(position);
     this.controls.target.copy(target);
@@ -237,25 +254,19 @@ export class Stage {
     this.invalidate();
   }
 
-  private keyLight(): THREE.DirectionalLight {
-    const key = this.key;
-    key.position.set(-2.2, 4, -0.6);
-    key.castShadow = true;
-    Object.assign(key.shadow.camera, { left: -2.2, right: 2.2, top: 2.2, bottom: -2.2, near: 0.5, far: 9 });
-    key.shadow.bias = -0.0006;
-    key.shadow.normalBias = 0.012;
-    return key;
+  /** A named view goes back as the leaf moves out of the window, never nearer. */
+  private keepInside(): void {
+    const outside = this.outline().filter((point) => {
+      const at = point.clone().project(this.camera);
+      return Math.max(Math.abs(at.x), Math.abs(at.y)) > FILLED;
+    });
+    if (outside.length === 0) return;
+    const kept =
+      this.enclosed.length > kMostEnclosed ? this.enclosed.filter((_, i) => i % 2 === 0) : this.enclosed;
+    this.frame(direction(VIEWS[this.view]!), [...kept, ...outside]);
   }
 
-  private ground(): THREE.Object3D {
-    const ground = new THREE.Mesh(new THREE.CircleGeometry(8, 48), this.shade);
-    ground.rotation.x = -Math.PI / 2;
-    ground.position.y = -0.002;
-    ground.receiveShadow = true;
-    return ground;
-  }
-
-  /** Fewer pixels and plainer shadows where pictures take too long: a median of `kSlow` over some that follow each other. */
+  /** Fewer pixels and plainer shadows where pictures take too long: SLOW in the median of some in a row. */
   private keepUp(now: number): void {
     const since = now - this.lastDrawn;
     this.lastDrawn = now;
@@ -266,13 +277,13 @@ export class Stage {
       this.verySlow > 2 ? 500 : this.intervals.sort((a, b) => a - b)[this.intervals.length >> 1]!;
     this.intervals = [];
     this.verySlow = 0;
-    if (median < kSlow || this.level === kLevels.length - 1) return;
+    if (median < SLOW || this.level === LEVELS.length - 1) return;
     this.setLevel(this.level + 1);
   }
 
   private setLevel(level: number): void {
     this.level = level;
-    const { pixels, shadow, blur } = kLevels[level]!;
+    const { pixels, shadow, blur } = LEVELS[level]!;
     const { map, mapPass } = this.key.shadow;
     map?.dispose();
     mapPass?.dispose();
@@ -280,7 +291,7 @@ export class Stage {
     this.key.shadow.mapSize.set(shadow, shadow);
     this.key.shadow.blurSamples = blur;
     this.key.shadow.radius = (5 * shadow) / 1024;
-    this.detail = kFullDetail * pixels;
+    this.detail = FULL_DETAIL * pixels;
     this.invalidate();
   }
 }
