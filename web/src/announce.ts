@@ -7,15 +7,20 @@ const kSettled = 700; // ms after the last movement
 
 export function buildAnnouncements(app: App): void {
   let last = 0;
+  let timer = 0;
   const say = () => {
+    clearTimeout(timer);
     const frame = app.frame();
     if (!frame) return;
+    if (!app.playback.playing && frame.iteration < Math.floor(app.playback.playhead) && !app.active.ended) {
+      timer = window.setTimeout(say, kSettled); // it is still being computed
+      return;
+    }
     last = performance.now();
     byId("live").textContent =
       `Iteration ${frame.iteration} of ${app.playback.iterations}: ${Math.round(100 * frame.waterLeft)} per cent of the water left, ` +
       `curl ${Math.round(frame.curl)} degrees, wrinkle ${(100 * frame.wrinkle).toFixed(1)} per cent of the length`;
   };
-  let timer = 0;
   app.playback.events.on("moved", () => {
     clearTimeout(timer);
     if (performance.now() - last > kEvery) say();
