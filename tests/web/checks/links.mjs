@@ -23,17 +23,23 @@ export default {
   // Oracle: the core's positions there, bit for bit.
   async bringsEverythingBack({ studio, browser, assert }) {
     await studio.leaf(
-      "leaf=grape&seed=4&vertices=400&s.iterations=20&s.water.loss_rate=0.03&c.5.water.humidity=0.2&i=9&field=dryness&veins=1",
+      "leaf=grape&seed=4&vertices=400&s.iterations=20&s.water.loss_rate=0.03&field=dryness&veins=1",
     );
     await studio.click("#tab-edit");
     await studio.click('#tip-list button[aria-label="Remove r1"]');
     await studio.until((now) => now.edits.removed.length === 1 && !now.busy);
     await studio.page.evaluate(() => globalThis.wiltStudio.app.playback.pause());
+    await studio.page.fill("#scrub", "5");
+    await studio.until((now) => now.shown === 5);
+    await studio.click("#tab-wither");
+    await studio.page.fill("#set-water-humidity", "20");
+    await studio.until((now) => now.changes.length === 1);
     await studio.page.fill("#scrub", "7");
     await studio.until((now) => now.shown === 7);
     await studio.click("#share");
     const link = await studio.page.evaluate(() => location.hash.slice(1));
     const before = await studio.state();
+    assert.deepEqual([before.changes.length, before.edits.removed.length], [1, 1]);
     const other = await browser.studio({ init: withoutWebGl });
     await other.open(link);
     const after = await other.until((now) => now.shown === 7 && !now.playing);
