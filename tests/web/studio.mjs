@@ -22,6 +22,7 @@ const GROUPS = ["loading", "playing", "settings", "looks", "editing", "files", "
 
 let failures = 0;
 const scratch = mkdtempSync(join(tmpdir(), "wilt-web-"));
+process.on("exit", () => rmSync(scratch, { recursive: true, force: true })); // when it is stopped too
 mkdirSync(screenshots, { recursive: true });
 const browser = await startBrowser(nodeFolder, chromium, site);
 try {
@@ -50,7 +51,6 @@ try {
   }
 } finally {
   await browser.close();
-  rmSync(scratch, { recursive: true });
 }
 console.log(`${(performance.now() / 1000) | 0} s, ${failures} failures`);
 process.exitCode = failures > 0 ? 1 : 0;
