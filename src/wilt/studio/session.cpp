@@ -20,7 +20,7 @@ namespace {
 LeafPaint painted(const Leaf& leaf, const Venation& venation, Config config, int texels) {
   config.texture.size = texels;
   std::vector<Eigen::VectorXd> states;
-  for (const double dryness : {0.0, 0.25, 0.5, 1.0, 0.75})
+  for (const double dryness : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0})
     states.push_back(Eigen::VectorXd::Constant(leaf.positions.rows(), dryness));
   return LeafPaint(leaf, venation, config, states);
 }
