@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "wilt/core/error.hpp"
@@ -107,6 +108,8 @@ TEST(Config, TakesListsOfNumbers) {
   Config config;
   set(config, "external.forces", "1, -2,3e-1");
   EXPECT_EQ(config.external.forces, (std::vector<double>{1, -2, 0.3}));
+  set(config, "external.forces", "-0,1,1");
+  EXPECT_FALSE(std::signbit(config.external.forces[0])) << "TOML reads -0 back as 0";
   set(config, "external.forces", "");
   EXPECT_TRUE(config.external.forces.empty());
   apply_toml(config, "[water]\ndry_region = [0, 0.5,\n  1, 0.25, -1, 2.5]", "run.toml");

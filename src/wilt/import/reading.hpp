@@ -1,8 +1,6 @@
 // What all ways to read a leaf have in common. For the import room and the page's core.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <new>
 #include <string>
 
@@ -19,12 +17,12 @@ auto naming(const std::string& name, const Read& read) {
   } catch (const Error& error) {
     if (error.code() != ErrorCode::input || std::string(error.what()).find(name + "'") != std::string::npos)
       throw;
-    throw Error(ErrorCode::input, fmt::format("'{}': {}", name, error.what()));
+    throw Error(ErrorCode::input, "'" + name + "': " + error.what());
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::input,
-                fmt::format("'{}': reading it takes more memory than there is; simplify it", name));
+    throw Error(ErrorCode::input, "'" + name + "': reading it takes more memory than there is; simplify it");
   }
 }
+
 /// Throws Error{input}, naming the leaf, unless squares and cubes of its length are numbers too. Odd lengths
 /// within these have their note.
 void check_length(const Leaf& leaf, const std::string& name);

@@ -38,6 +38,11 @@ std::string allowed(const Setting& setting) {
                      setting.key, setting.min, setting.max, setting.unit.empty() ? "" : " " + setting.unit);
 }
 
+// -0 is written as what TOML reads back as 0.
+double without_sign_of_zero(double value) {
+  return value == 0.0 ? 0.0 : value;
+}
+
 void check_range(const Setting& setting, double value) {
   if (!(value >= setting.min && value <= setting.max))
     fail(fmt::format("{}, not {}", allowed(setting), value));
@@ -100,7 +105,7 @@ void assign_word(const Setting& setting, std::string& field, const std::string& 
 void assign_number(const Setting& setting, const Setting::Field& field, double value) {
   check_range(setting, value);
   if (auto* const* number = std::get_if<double*>(&field)) {
-    **number = value;
+    **number = without_sign_of_zero(value);
   } else if (value != std::floor(value)) {
     fail(fmt::format("{} must be a whole number, not {}", setting.key, value));
   } else if (const int least = least_above_zero(setting.key); value > 0 && value < least) {
@@ -119,7 +124,10 @@ void assign_list(const Setting& setting, std::vector<double>& field, std::vector
   if (count > 0 && count < static_cast<std::size_t>(setting.fewest))
     refuse(fmt::format("{} numbers or more, or none", setting.fewest));
   if (count > kLongestList) refuse(fmt::format("{} numbers at most", kLongestList));
-  for (const double value : values) check_range(setting, value);
+  for (double& value : values) {
+    check_range(setting, value);
+    value = without_sign_of_zero(value);
+  }
   field = std::move(values);
 }
 
