@@ -33,6 +33,9 @@ interface SessionEvents {
 }
 
 const kFrameBytesAllowed = 600e6;
+const kStopped =
+  "The leaf changes faster than the equations can follow, so it stops here. What there is can be looked at; take back the " +
+  "last change (Ctrl-Z), or move the sliders nearer to the usual. ";
 
 export class Session {
   readonly core: Comlink.Remote<Core>;
@@ -222,7 +225,7 @@ export class Session {
     else this.frames[this.frames.length - 1] = frame; // the run came to its end, or could not go on
     this.thinOut(frame);
     this.events.emit("frames", undefined);
-    if (frame.stopped) this.events.emit("failed", new Error(frame.stopped));
+    if (frame.stopped) this.events.emit("failed", new Error(kStopped + frame.stopped));
   }
 
   /** Keeps every other frame when memory would run short; what lies between is interpolated. */
