@@ -99,8 +99,14 @@ class Batch(unittest.TestCase):
     def test_an_item_is_what_simulate_makes_of_its_settings(self):
         labels = json.loads(self.serial["items/000002/item.json"])
         lone = self.root / "lone.glb"
+
+        def text(value):
+            if isinstance(value, list):
+                return ",".join(map(str, value))
+            return str(value).lower() if isinstance(value, bool) else value
+
         words = [word for key, value in labels["config"].items() if key != "species"
-                 for word in ("--set", f"{key}={str(value).lower() if isinstance(value, bool) else value}")]
+                 for word in ("--set", f"{key}={text(value)}")]
         subprocess.run([WILT, "simulate", labels["chosen"]["leaf"], "-q", "-o", lone, *words], check=True)
         self.assertEqual(lone.read_bytes(), self.serial["items/000002/leaf.glb"])
 
