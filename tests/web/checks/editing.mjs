@@ -10,6 +10,16 @@ const inWindow = (studio, point) =>
     return { x: box.x + at.x, y: box.y + at.y };
   }, point);
 
+/** The box of an element once it has come to rest. */
+async function restingBox(studio, locator) {
+  for (let last = ""; ; ) {
+    const box = await locator.boundingBox();
+    if (JSON.stringify(box) === last) return box;
+    last = JSON.stringify(box);
+    await studio.page.waitForTimeout(300);
+  }
+}
+
 async function fresh(studio) {
   await studio.leaf(LEAF);
   await studio.page.waitForTimeout(600); // the camera turns to its view
@@ -84,8 +94,7 @@ export default {
   async aForceIsPulled({ studio, assert }) {
     await fresh(studio);
     await studio.click("#tool-forces");
-    const handle = studio.page.locator("#overlay .handle").first();
-    const box = await handle.boundingBox();
+    const box = await restingBox(studio, studio.page.locator("#overlay .handle").first());
     const before = await studio.core(async (core) => Array.from((await core.frame()).tipForces));
     await studio.page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
     await studio.page.mouse.down();
