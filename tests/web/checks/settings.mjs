@@ -112,6 +112,9 @@ export default {
         model,
       );
       await studio.page.waitForFunction((name) => document.querySelector(`input[name=model][value=${name}]`).checked, model);
+      // The printed equations know no humidity.
+      assert.equal(await studio.page.isDisabled("#set-water-humidity"), model === "paper");
+      assert.equal(await studio.page.isDisabled("#set-water-loss_rate"), false);
     }
     assert.equal((await studio.state()).frames, 1);
   },

@@ -10,6 +10,8 @@ export interface SliderSpec {
   min: number;
   max: number;
   step: number;
+  /** The printed equations (model "paper") have no such thing. */
+  onlyCell?: boolean;
   /** From the setting's value to the slider's and back; absent: the same. */
   shown?: (value: number) => number;
   meant?: (shown: number) => number;
@@ -51,6 +53,9 @@ export function settingSlider(app: App, spec: SliderSpec): { root: HTMLElement; 
     if (value > Number(input.max)) input.max = String(value);
     input.value = String(value);
     say(value);
+    const model = app.active.settings.get("model");
+    input.disabled = Boolean(spec.onlyCell && model && app.active.valueAt(model, 0) === "paper");
+    if (input.disabled) output.textContent = "not in model paper";
   };
   const root = element(
     "div",

@@ -18,6 +18,7 @@ const kSliders: SliderSpec[] = [
   },
   {
     key: "water.temperature_c",
+    onlyCell: true,
     label: "Temperature",
     unit: " °C",
     ends: ["cold", "hot"],
@@ -27,6 +28,7 @@ const kSliders: SliderSpec[] = [
   },
   {
     key: "water.humidity",
+    onlyCell: true,
     label: "Humidity of the air",
     unit: " %",
     ends: ["dry", "damp"],
@@ -38,6 +40,7 @@ const kSliders: SliderSpec[] = [
   },
   {
     key: "curvature.roll",
+    onlyCell: true,
     label: "Curl",
     unit: "× usual",
     ends: ["flat", "rolled up"],
@@ -47,6 +50,7 @@ const kSliders: SliderSpec[] = [
   },
   {
     key: "shrinkage.amount",
+    onlyCell: true,
     label: "Wrinkles",
     unit: "× usual",
     ends: ["smooth", "crumpled"],
