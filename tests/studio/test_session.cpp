@@ -149,6 +149,7 @@ TEST(LiveFrame, ShowsTheStateOfTheRun) {
     EXPECT_FLOAT_EQ(water[p] / mass[p], fraction[p]);
     EXPECT_EQ(pressure[p], static_cast<float>(-model.pressure_drop()[v]));
   }
+  EXPECT_EQ(frame.stalk_positions.size(), 3u * leaf.stalk_points);
   EXPECT_EQ(frame.veins.size(), 3u * leaf.vein_start.back());
   EXPECT_EQ(leaf.vein_order.size() + 1, leaf.vein_start.size());
   // A primary vein ends at its tip, which moves with the blade.

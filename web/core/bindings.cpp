@@ -116,7 +116,7 @@ val info_value(const StudioSession& session, const val& source) {
   info.set("vertex", typed(live.vertex));
   info.set("faces", typed(live.faces));
   info.set("uv", typed(live.uv));
-  info.set("stalkPoints", static_cast<int>(live_frame(session).stalk_positions.size() / 3));
+  info.set("stalkPoints", live.stalk_points);
   info.set("stalkFaces", typed(live.stalk_faces));
   info.set("petiolePoint", live.petiole_point);
   info.set("tips", tips_value(session, live));

@@ -45,7 +45,10 @@ Points2 places_of(const val& source, const Leaf& leaf) {
   const std::string kind = source["kind"].as<std::string>();
   if (kind == "photo") return photo_places(leaf);
   if (kind == "mesh") return mesh_places(leaf);
-  if (kind == "species") return 1000.0 * species_leaf(source).positions.leftCols<2>();
+  if (kind == "species") {
+    const bool moved = !source["petiole"].isUndefined();
+    return 1000.0 * (moved ? species_leaf(source) : leaf).positions.leftCols<2>();
+  }
   return drawn_places(leaf, kind == "drawing");
 }
 

@@ -76,7 +76,11 @@ LiveLeaf live_leaf(const StudioSession& session) {
   for (const VertexId v : leaf.skin.vertex) live.vertex.push_back(static_cast<std::uint32_t>(int(v)));
   live.faces = indices(leaf.skin.faces);
   live.uv.assign(leaf.skin.uv.data(), leaf.skin.uv.data() + leaf.skin.uv.size());
-  if (has_stalk(leaf)) live.stalk_faces = indices(stalk_tube(leaf, leaf.stalk.centreline).faces);
+  if (has_stalk(leaf)) {
+    const Tube stalk = stalk_tube(leaf, leaf.stalk.centreline);
+    live.stalk_points = static_cast<std::uint32_t>(stalk.positions.rows());
+    live.stalk_faces = indices(stalk.faces);
+  }
   for (const Tip& tip : venation.tips) live.tip_points.push_back(point(tip.vertex));
   for (const VertexId v : venation.margin.vertices) live.margin_points.push_back(point(v));
   std::uint32_t start = 0;

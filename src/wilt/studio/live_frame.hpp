@@ -14,6 +14,7 @@ struct LiveLeaf {
   std::vector<std::uint32_t> vertex;         ///< #S, of the mesh
   std::vector<std::uint32_t> faces;          ///< #F x 3 points
   std::vector<float> uv;                     ///< #S x 2, origin top left
+  std::uint32_t stalk_points = 0;            ///< of LiveFrame::stalk_positions
   std::vector<std::uint32_t> stalk_faces;    ///< of LiveFrame::stalk_positions
   std::vector<std::uint32_t> tip_points;     ///< #tips
   std::vector<std::uint32_t> margin_points;  ///< #M, as MarginProfile has them
